@@ -1,1 +1,7 @@
-//! stub
+//! An island-model genetic algorithm that evolves virtual creatures.
+
+pub mod rng;
+
+pub mod evolution;
+
+pub mod archipelago;

@@ -1,0 +1,115 @@
+//! One island, and its step as a pure function.
+
+use super::Archipelago;
+use super::migration::{self, Outbox};
+use crate::evolution::generation::{self, Effort, Moment};
+use crate::evolution::population::{Population, best};
+use crate::evolution::{Gene, Individual, Problem, Statistics};
+use serde::{Deserialize, Serialize};
+
+/// The whole state of an island between two generations.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "G: Gene")]
+pub struct Island<G> {
+    /// Which island this is, from 0.
+    pub index: u32,
+    /// The generation that its population is.
+    pub generation: u32,
+    /// Its individuals.
+    pub population: Population<G>,
+    /// The best individual that ever lived here, immigrants included.
+    pub champion: Individual<G>,
+    /// What all its evaluations so far cost.
+    pub effort: Effort,
+}
+
+/// What one generation of one island was like: a row of the metrics.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report {
+    /// The island.
+    pub island: u32,
+    /// The generation.
+    pub generation: u32,
+    /// The population at its end.
+    pub statistics: Statistics,
+    /// What it cost.
+    pub effort: Effort,
+    /// Immigrants that were in its outboxes.
+    pub immigrants: u32,
+}
+
+/// What comes out of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step<G> {
+    /// The island after the generation.
+    pub island: Island<G>,
+    /// What it sends, at the end of an epoch.
+    pub outbox: Option<Outbox<G>>,
+    /// What the generation was like.
+    pub report: Report,
+    /// Whether [`Island::champion`] is a new one.
+    pub new_champion: bool,
+}
+
+/// Generation 0 of an island: random genomes, evaluated.
+pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
+    let source = archipelago.source(island);
+    let offspring = generation::genesis(problem, &archipelago.strategy, source);
+    let (population, effort) = generation::evaluate(problem, offspring, &[]);
+    let champion = best(&population).expect("a population has at least two individuals").clone();
+    let report = Report {
+        island,
+        generation: 0,
+        statistics: Statistics::of(problem, &population),
+        effort,
+        immigrants: 0,
+    };
+    let island = Island { index: island, generation: 0, population, champion, effort };
+    Step { island, outbox: None, report, new_champion: true }
+}
+
+/// The next generation of an island. `immigrants` are the outboxes that
+/// [`Migration::immigration`](super::Migration::immigration) names for it, in any order.
+///
+/// A generation ends with every individual evaluated, so that what it sends and what is saved of it
+/// needs no evaluation ever again.
+pub fn step<P: Problem>(
+    island: Island<P::Gene>,
+    immigrants: &[Outbox<P::Gene>],
+    problem: &P,
+    archipelago: &Archipelago,
+) -> Step<P::Gene> {
+    let Archipelago { strategy, migration, .. } = archipelago;
+    let Island { index, generation, population, champion, effort: spent } = island;
+    let generation = generation + 1;
+    let moment = Moment { source: archipelago.source(index), generation };
+
+    let population = migration::immigrate::<P>(population, immigrants);
+    let couples = generation::select(&population, strategy, moment);
+    let offspring = generation::vary(problem, &population, &couples, strategy, moment);
+    let (offspring, effort) = generation::evaluate(problem, offspring, &population);
+    let next = generation::survive(&population, offspring, strategy);
+    let outbox = migration
+        .emigration(generation)
+        .map(|epoch| migration::emigrate(&next, migration, index, epoch));
+
+    let contender =
+        [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
+    let better = contender.filter(|contender| contender.fitness > champion.fitness).cloned();
+    let new_champion = better.is_some();
+    let report = Report {
+        island: index,
+        generation,
+        statistics: Statistics::of(problem, &next),
+        effort,
+        immigrants: immigrants.iter().map(|outbox| outbox.migrants.len() as u32).sum(),
+    };
+    let island = Island {
+        index,
+        generation,
+        population: next,
+        champion: better.unwrap_or(champion),
+        effort: spent.and(effort),
+    };
+    Step { island, outbox, report, new_champion }
+}

@@ -1,0 +1,58 @@
+//! Many islands: who is whose neighbour, what travels when, and how one island steps.
+//!
+//! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
+//! [`inbox`] is the receiving end of the exchange protocol, a state machine without a channel;
+//! [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
+//! equal to the last bit; [`digest`] is the number in which "equal" is checked.
+//!
+//! Architecture invariant: pure, like [`crate::evolution`]. Whether migrants travel through shared memory,
+//! a file or a variable is not known here.
+
+pub mod digest;
+pub mod inbox;
+pub mod island;
+pub mod lockstep;
+pub mod migration;
+pub mod topology;
+
+pub use digest::Digest;
+pub use inbox::{Arrival, Inbox};
+pub use island::{Island, Report, Step};
+pub use migration::{Migration, Outbox};
+pub use topology::Topology;
+
+use crate::evolution::Strategy;
+use crate::rng::Source;
+use serde::{Deserialize, Serialize};
+
+/// All that decides the result of a run besides the problem.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Archipelago {
+    /// Number of islands, at least 1.
+    pub islands: u32,
+    /// The seed of all randomness.
+    pub seed: u64,
+    /// Who sends to whom.
+    pub topology: Topology,
+    /// What is sent when.
+    pub migration: Migration,
+    /// How each island evolves.
+    pub strategy: Strategy,
+}
+
+impl Archipelago {
+    /// The randomness of one island.
+    pub fn source(&self, island: u32) -> Source {
+        Source { seed: self.seed, island }
+    }
+
+    /// Whom `island` receives from.
+    pub fn in_neighbours(&self, island: u32) -> Vec<u32> {
+        self.topology.in_neighbours(island, self.islands)
+    }
+
+    /// Whom `island` sends to.
+    pub fn out_neighbours(&self, island: u32) -> Vec<u32> {
+        self.topology.out_neighbours(island, self.islands)
+    }
+}
