@@ -4,4 +4,6 @@ pub mod rng;
 
 pub mod evolution;
 
+pub mod creature;
+
 pub mod archipelago;

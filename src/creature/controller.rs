@@ -1,0 +1,122 @@
+//! What moves a body: a motor in each revolute joint, driven by a wave.
+
+use super::expansion::Copy;
+use super::morphology::{JointKind, Morphology};
+use super::profile::{Profile, Traits};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{PI, TAU};
+
+/// The motors of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Controller {
+    /// The time between two motor updates, in seconds.
+    pub period_s: f64,
+    /// The motor of each link's joint, by link; none for the root and for fixed joints.
+    pub motors: Vec<Option<Motor>>,
+}
+
+/// A motor: it drives its hinge towards a speed that follows a wave.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motor {
+    /// The form of the wave.
+    pub waveform: Waveform,
+    /// The largest target speed, in rad/s.
+    pub amplitude_rad_s: f64,
+    /// The phase before the first update, in radians.
+    pub phase_start_rad: f64,
+    /// Phase gained at each update, in radians.
+    pub phase_step_rad: f64,
+    /// The largest torque that it can exert, in newton metres.
+    pub torque_nm_max: f64,
+}
+
+/// The form of a wave over one cycle, from -1 to 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Waveform {
+    /// The sine of the phase.
+    Sine,
+    /// 1 for the first half of the cycle, then -1.
+    Pulse,
+    /// Rises evenly from -1 to 1, then falls back at once.
+    Ramp,
+}
+
+impl Waveform {
+    /// The wave's value at a phase from 0 (included) to 2π (excluded).
+    pub fn at(self, phase_rad: f64) -> f64 {
+        match self {
+            Waveform::Sine => libm::sin(phase_rad),
+            Waveform::Pulse if phase_rad < PI => 1.0,
+            Waveform::Pulse => -1.0,
+            Waveform::Ramp => phase_rad / PI - 1.0,
+        }
+    }
+}
+
+impl Motor {
+    /// The phase after one more update.
+    pub fn advance(&self, phase_rad: f64) -> f64 {
+        (phase_rad + self.phase_step_rad) % TAU
+    }
+
+    /// The speed to aim at, in rad/s.
+    pub fn target_rad_s(&self, phase_rad: f64) -> f64 {
+        self.amplitude_rad_s * self.waveform.at(phase_rad)
+    }
+}
+
+/// The torque of every motor in the course, in newton metres.
+const COURSE_TORQUE_NM: f64 = 5.0;
+
+/// Torque of a native motor for each square metre of the smaller cross-section of the parts that it joins, in
+/// newton metres. That strength grows with cross-section is Sims' rule (1994); the figure lets a limb of
+/// 0.1 m radius (126 N·m) lift a trunk of water's density and its own length.
+const STRENGTH_NM_PER_M2: f64 = 4000.0;
+
+/// Gives each revolute joint of a body its motor.
+pub fn build(
+    traits: &[Traits],
+    tree: &[Copy],
+    morphology: &Morphology,
+    profile: Profile,
+) -> Controller {
+    let motors = tree.iter().zip(&morphology.links).map(|(copy, link)| {
+        let joint = link.joint.as_ref()?;
+        let JointKind::Revolute(_) = joint.kind else { return None };
+        let traits = &traits[copy.gene];
+        let parent = &morphology.links[joint.parent];
+        Some(Motor {
+            waveform: traits.waveform,
+            amplitude_rad_s: traits.amplitude_rad_s,
+            phase_start_rad: match profile {
+                Profile::Native if copy.sibling % 2 == 1 => PI,
+                _ => 0.0,
+            },
+            phase_step_rad: traits.phase_step_rad,
+            torque_nm_max: match profile {
+                Profile::Native => {
+                    let section =
+                        link.shape.cross_section_m2().min(parent.shape.cross_section_m2());
+                    STRENGTH_NM_PER_M2 * section
+                }
+                Profile::Lecture | Profile::Coursework => COURSE_TORQUE_NM,
+            },
+        })
+    });
+    Controller { period_s: profile.control_period_s(), motors: motors.collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waves_run_from_minus_one_to_one() {
+        assert_eq!(Waveform::Sine.at(0.0), 0.0);
+        assert_eq!(Waveform::Pulse.at(0.0), 1.0);
+        assert_eq!(Waveform::Pulse.at(PI), -1.0);
+        assert_eq!(Waveform::Ramp.at(0.0), -1.0);
+        assert_eq!(Waveform::Ramp.at(PI), 0.0);
+    }
+}
