@@ -7,3 +7,7 @@ pub mod evolution;
 pub mod creature;
 
 pub mod archipelago;
+
+pub mod simulation;
+
+pub mod problems;

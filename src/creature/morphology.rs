@@ -144,6 +144,15 @@ impl Morphology {
         bottoms.fold(0.0, f64::min)
     }
 
+    /// The largest distance of a link's centre from the root at rest, plus that link's own half diagonal, in
+    /// metres: how far the body reaches.
+    pub fn extent_m(&self) -> f64 {
+        let reach = self.links.iter().zip(self.rest_poses()).map(|(link, pose)| {
+            pose.translation.vector.norm() + link.shape.half_extents_m().norm()
+        });
+        reach.fold(0.0, f64::max)
+    }
+
     /// The mass of the whole body in kilograms.
     pub fn mass_kg(&self) -> f64 {
         self.links.iter().map(|link| link.mass_kg).sum()

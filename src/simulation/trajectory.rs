@@ -1,6 +1,9 @@
 //! What a simulation looked like: the poses of every link over time.
 
-use crate::creature::morphology::Shape;
+use crate::creature::{Creature, Shape};
+
+/// Frames a second in a film of a trial.
+pub const FRAMES_PER_S: f64 = 60.0;
 
 /// Where a link is in the world.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,7 +14,7 @@ pub struct Pose {
     pub rotation_xyzw: [f32; 4],
 }
 
-/// A recorded simulation: `poses[frame][link]`.
+/// A filmed simulation: `poses[frame][link]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// The solid of each link.
@@ -22,4 +25,18 @@ pub struct Trajectory {
     pub poses: Vec<Vec<Pose>>,
     /// When settling ended and scoring began, in seconds.
     pub scoring_from_s: f64,
+}
+
+impl Trajectory {
+    /// A film without a frame.
+    pub fn new(creature: &Creature, scoring_from_s: f64) -> Self {
+        let shapes = creature.morphology.links.iter().map(|link| link.shape).collect();
+        Self { shapes, times_s: Vec::new(), poses: Vec::new(), scoring_from_s }
+    }
+
+    /// Adds a frame.
+    pub fn push(&mut self, time_s: f64, poses: Vec<Pose>) {
+        self.times_s.push(time_s);
+        self.poses.push(poses);
+    }
 }

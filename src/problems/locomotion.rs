@@ -1,0 +1,219 @@
+//! Creatures that move: a genome is worth how far its body gets.
+
+use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
+use crate::creature::{self, Creature, ExpressionError, Gene, Profile};
+use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
+use crate::rng::Stream;
+use crate::simulation::{self, Measurement, Start, Trajectory, Trial};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What a creature has to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Task {
+    /// To get away: the horizontal displacement of its centre of mass after settling.
+    #[default]
+    Walk,
+    /// To keep moving: the length of that path, the lectures' later fitness.
+    Travel,
+    /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
+    /// It counts the fall, and is here for comparison.
+    Course,
+}
+
+impl Task {
+    /// Every task.
+    pub const ALL: [Task; 3] = [Task::Walk, Task::Travel, Task::Course];
+
+    /// How bodies are tried.
+    pub fn trial(self) -> Trial {
+        match self {
+            Task::Walk | Task::Travel => Trial {
+                steps_per_s: 120,
+                gravity_m_s2: 9.81,
+                // Low, since a body that falls far bounces, and one that lands on a light root flies off.
+                start: Start::LowestAt(0.1),
+                settle_s: 1.0,
+                scored_s: 8.0,
+            },
+            Task::Course => Trial {
+                steps_per_s: 240,
+                gravity_m_s2: 10.0,
+                start: Start::RootAt(2.5),
+                settle_s: 0.0,
+                scored_s: 10.0,
+            },
+        }
+    }
+
+    /// What a measurement is worth, in metres.
+    pub fn score(self, measured: &Measurement) -> f64 {
+        match self {
+            Task::Walk => (measured.centre_last_m - measured.centre_first_m).xy().norm(),
+            Task::Travel => measured.path_m,
+            Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
+        }
+    }
+}
+
+impl std::fmt::Display for Task {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Task::Walk => "walk",
+            Task::Travel => "travel",
+            Task::Course => "course",
+        })
+    }
+}
+
+/// The problem of locomotion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Locomotion {
+    /// How genes are read.
+    pub profile: Profile,
+    /// What the bodies have to do.
+    pub task: Task,
+    /// Genes of a random genome, at least 1.
+    pub genes: usize,
+    /// The most links of a body, for profiles that cut.
+    pub links_max: usize,
+}
+
+impl Locomotion {
+    /// Expresses a genome.
+    ///
+    /// # Errors
+    /// If it is empty or describes more than the profile builds.
+    pub fn express(&self, genome: &[Gene]) -> Result<Creature, ExpressionError> {
+        creature::express(genome, self.profile, self.links_max)
+    }
+
+    /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives.
+    ///
+    /// # Errors
+    /// If the genome cannot be expressed.
+    pub fn film(&self, genome: &[Gene]) -> Result<(Evaluation, Trajectory), ExpressionError> {
+        let creature = self.express(genome)?;
+        let (result, trajectory) = simulation::film(&creature, &self.task.trial());
+        Ok((self.evaluation(result), trajectory))
+    }
+
+    fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+        let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
+        simulation::simulate(&creature, &self.task.trial())
+    }
+
+    fn evaluation(&self, result: Result<Measurement, Outcome>) -> Evaluation {
+        match result {
+            Ok(measured) => Evaluation::scored(self.task.score(&measured)),
+            Err(outcome) => Evaluation::failed(outcome),
+        }
+    }
+}
+
+impl evolution::Gene for Gene {
+    const WIRE_NAME: &'static str = "islands.creature.gene.v1";
+
+    fn is_valid(&self) -> bool {
+        self.0.iter().all(|value| (0.0..1.0).contains(value))
+    }
+}
+
+impl Problem for Locomotion {
+    type Gene = Gene;
+
+    fn random_gene(&self, rng: &mut Stream) -> Gene {
+        Gene(std::array::from_fn(|_| rng.random()))
+    }
+
+    fn random_genome(&self, rng: &mut Stream) -> Vec<Gene> {
+        (0..self.genes).map(|_| self.random_gene(rng)).collect()
+    }
+
+    fn mutate_gene(&self, gene: &mut Gene, rate: f64, amount: f64, rng: &mut Stream) {
+        for value in &mut gene.0 {
+            if variation::happens(rate, rng) {
+                let change = (2.0 * rng.random::<f64>() - 1.0) * amount;
+                *value = reflect(*value + change);
+            }
+        }
+    }
+
+    /// The mean absolute difference of the values of genes in the same place; a gene that only one of them has
+    /// counts as wholly different.
+    fn distance(&self, a: &[Gene], b: &[Gene]) -> f64 {
+        let shared: f64 = a.iter().zip(b).map(|(a, b)| gene_distance(a, b)).sum();
+        let longer = a.len().max(b.len());
+        if longer == 0 {
+            return 0.0;
+        }
+        (shared + a.len().abs_diff(b.len()) as f64) / longer as f64
+    }
+
+    fn evaluate(&self, genome: &[Gene]) -> Evaluation {
+        let tried = catch_unwind(AssertUnwindSafe(|| self.try_out(genome)));
+        self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+    }
+
+    fn unit(&self) -> &'static str {
+        "m"
+    }
+}
+
+fn gene_distance(a: &Gene, b: &Gene) -> f64 {
+    a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).sum::<f64>() / PARAMETER_COUNT as f64
+}
+
+/// Brings a value that left the range from 0 to 1 by less than 1 back in, as a mirror at its ends would:
+/// a clamp would pile values up there.
+fn reflect(value: f64) -> f64 {
+    let value = value.abs();
+    if value < 1.0 { value } else { (2.0 - value).clamp(0.0, VALUE_MAX) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Purpose, Source};
+
+    fn problem() -> Locomotion {
+        Locomotion { profile: Profile::Native, task: Task::Walk, genes: 3, links_max: 32 }
+    }
+
+    fn stream(index: u32) -> Stream {
+        Source { seed: 11, island: 0 }.stream(0, index, Purpose::Mutation)
+    }
+
+    #[test]
+    fn point_mutation_honours_its_rate_and_its_amount() {
+        let mut changed = 0.0;
+        for index in 0..1_000 {
+            let mut gene = Gene([0.5; PARAMETER_COUNT]);
+            problem().mutate_gene(&mut gene, 0.2, 0.05, &mut stream(index));
+            assert!(gene.0.iter().all(|value| (value - 0.5).abs() <= 0.05));
+            changed += gene.0.iter().filter(|&&value| value != 0.5).count() as f64 / 17_000.0;
+        }
+        assert!((changed - 0.2_f64).abs() < 0.02, "{changed}");
+    }
+
+    #[test]
+    fn mutation_never_leaves_the_range() {
+        for (index, start) in [(0, 0.0), (1, VALUE_MAX), (2, 0.5)] {
+            let mut gene = Gene([start; PARAMETER_COUNT]);
+            for _ in 0..200 {
+                problem().mutate_gene(&mut gene, 1.0, 1.0, &mut stream(index));
+                assert!(evolution::Gene::is_valid(&gene), "{gene:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn distance_is_zero_for_equals_and_grows_with_values_and_length() {
+        let (low, high) = ([Gene([0.0; 17])], [Gene([0.5; 17])]);
+        assert_eq!(problem().distance(&low, &low), 0.0);
+        assert_eq!(problem().distance(&low, &high), 0.5);
+        assert_eq!(problem().distance(&low, &[low[0], low[0]]), 0.5);
+    }
+}
