@@ -31,7 +31,7 @@ impl Task {
     pub fn trial(self) -> Trial {
         match self {
             Task::Walk | Task::Travel => Trial {
-                steps_per_s: 120,
+                steps_per_s: 240,
                 gravity_m_s2: 9.81,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
                 start: Start::LowestAt(0.1),
