@@ -11,3 +11,6 @@ pub mod archipelago;
 pub mod simulation;
 
 pub mod problems;
+
+#[cfg(feature = "view")]
+pub mod view;

@@ -1,0 +1,98 @@
+//! The run as a film: champions that walk, curves that climb, in the Rerun viewer.
+//!
+//! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. Read in this
+//! order: [`film`] says when a champion is on screen, [`clip`] turns its trajectory into columns of poses,
+//! [`scenery`] is what never changes, [`blueprint`] arranges it all, [`recorder`] puts it together, and
+//! [`palette`] holds every colour.
+//!
+//! What a recording holds, by entity:
+//!
+//! ```text
+//! /run                             the run card, a text document
+//! /islands/{i}                     the island's lane: everything below it stands in it
+//! /islands/{i}/ground              a floor that moves on under the champion, for the island's own view
+//! /islands/{i}/lane                a floor that stays, for the view of all islands
+//! /islands/{i}/follow              where the champion is and how large: the island's view looks from here
+//! /islands/{i}/follow/marker       its label, and the same one higher up for the view of all islands
+//! /islands/{i}/follow/flag
+//! /islands/{i}/champion/boxes      its links, an entity a kind of solid
+//! /islands/{i}/champion/cylinders
+//! /islands/{i}/trail               the way it came
+//! /race                            the start line and the marks of the view of all islands
+//! /fitness/best/{i}  /fitness/mean/{i}  /diversity/{i}  /population/{i}
+//! /events                          what happened, a text log
+//! /topology                        who sends to whom, a graph
+//! ```
+//!
+//! Timelines are `playback`, the film clock in seconds, and `generation`.
+//!
+//! Architecture invariant: nothing outside this module knows Rerun, and nothing here decides anything: a
+//! run that nobody watches ends with the same bits.
+
+pub mod blueprint;
+pub mod clip;
+mod extent;
+pub mod film;
+pub mod palette;
+pub mod recorder;
+pub mod scenery;
+
+#[cfg(test)]
+mod tests;
+
+pub use clip::Clip;
+pub use film::Pace;
+pub use recorder::{Live, Recorder, RunCard};
+
+use std::path::PathBuf;
+
+/// The film clock, in seconds.
+const PLAYBACK: &str = "playback";
+/// The generation that something belongs to.
+const GENERATION: &str = "generation";
+
+/// Why a run could not be recorded.
+#[derive(Debug, thiserror::Error)]
+pub enum ViewError {
+    /// The recording could not be opened.
+    #[error("cannot write the recording {}: {source}", path.display())]
+    Create {
+        /// The file.
+        path: PathBuf,
+        /// What the file system said.
+        source: Box<rerun::sink::FileSinkError>,
+    },
+    /// Every port that was tried is in use.
+    #[error(
+        "no free port from {first} to {last} to serve the live view on; choose another or do not serve"
+    )]
+    NoFreePort {
+        /// The first port that was tried.
+        first: u16,
+        /// The last one.
+        last: u16,
+    },
+    /// Rerun refused a message.
+    #[error("cannot record: {0}")]
+    Record(#[source] Box<rerun::RecordingStreamError>),
+    /// What was recorded did not reach the disk.
+    #[error("cannot write the recording {}: {message}; is the disk full?", path.display())]
+    Flush {
+        /// The file.
+        path: PathBuf,
+        /// What Rerun said.
+        message: String,
+    },
+}
+
+impl From<rerun::RecordingStreamError> for ViewError {
+    fn from(error: rerun::RecordingStreamError) -> Self {
+        ViewError::Record(Box::new(error))
+    }
+}
+
+impl From<rerun::SerializationError> for ViewError {
+    fn from(error: rerun::SerializationError) -> Self {
+        rerun::RecordingStreamError::from(error).into()
+    }
+}

@@ -1,0 +1,55 @@
+//! Every colour, chosen for a dark background.
+
+use rerun::Color;
+
+/// What is behind everything: nearly black, a little blue.
+pub const BACKDROP: [u8; 3] = [14, 17, 24];
+
+/// The start line and the distance marks.
+pub const MARKS: [u8; 3] = [170, 176, 188];
+
+/// The Okabe-Ito palette, which colour-blind people can tell apart, with its dark colours lifted and its
+/// black left out; in an order that keeps neighbours far apart.
+/// Source: M. Okabe, K. Ito, "Color Universal Design" (2008).
+const HUES: [[u8; 3]; 8] = [
+    [86, 180, 233],
+    [240, 165, 20],
+    [30, 190, 140],
+    [226, 128, 184],
+    [240, 228, 66],
+    [235, 105, 45],
+    [90, 125, 245],
+    [190, 194, 204],
+];
+
+/// The colour of an island. From the ninth island on, the hues come again, each time darker.
+pub fn island(island: u32) -> [u8; 3] {
+    let round = island as usize / HUES.len();
+    mix(HUES[island as usize % HUES.len()], BACKDROP, (0.3 * round as f32).min(0.6))
+}
+
+/// The colour of a link of an island's creature: neighbouring links differ in lightness.
+pub fn link(island: u32, link: usize) -> Color {
+    // The trunk is link 0: the brightest.
+    let darkness = [0.0, 0.34, 0.17, 0.42, 0.25][link % 5];
+    opaque(mix(self::island(island), BACKDROP, darkness))
+}
+
+/// The two colours of an island's checkered floor.
+pub fn floor(island: u32) -> [[u8; 3]; 2] {
+    let hue = self::island(island);
+    [mix(hue, BACKDROP, 0.88), mix(hue, BACKDROP, 0.77)]
+}
+
+/// `from` and `to` mixed, `part` of it `to`.
+pub fn mix(from: [u8; 3], to: [u8; 3], part: f32) -> [u8; 3] {
+    std::array::from_fn(|i| {
+        let (from, to) = (f32::from(from[i]), f32::from(to[i]));
+        (from + (to - from) * part.clamp(0.0, 1.0)).round() as u8
+    })
+}
+
+/// As a Rerun colour.
+pub fn opaque([r, g, b]: [u8; 3]) -> Color {
+    Color::from_rgb(r, g, b)
+}
