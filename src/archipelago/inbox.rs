@@ -6,6 +6,7 @@
 
 use super::migration::Outbox;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// What became of an outbox that arrived.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,11 +42,11 @@ impl<G> Inbox<G> {
             Arrival::Stranger
         } else if outbox.epoch < self.next_epoch {
             Arrival::Stale
-        } else if self.kept.contains_key(&key) {
-            Arrival::Duplicate
-        } else {
-            self.kept.insert(key, outbox);
+        } else if let Entry::Vacant(place) = self.kept.entry(key) {
+            place.insert(outbox);
             Arrival::Kept
+        } else {
+            Arrival::Duplicate
         }
     }
 

@@ -1,0 +1,90 @@
+//! What a run leaves on disk, so that nothing is lost.
+//!
+//! [`run_dir`] says where everything lies; [`atomic`] writes files that are there whole or not at all;
+//! [`record_log`] appends records, each with its checksum, and is what an island's [`journal`] and champion log
+//! are made of; [`checkpoint`] keeps an island's whole state.
+//!
+//! Architecture invariant: this alone imports bincode. What a file says is believed only after its checksum.
+
+pub mod atomic;
+pub mod checkpoint;
+pub mod journal;
+pub mod record_log;
+pub mod run_dir;
+
+pub use journal::Journal;
+pub use record_log::RecordLog;
+pub use run_dir::RunDir;
+
+use serde::{Serialize, de::DeserializeOwned};
+use std::path::{Path, PathBuf};
+
+/// Why something could not be stored or read back.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The file system refused.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried.
+        action: &'static str,
+        /// With which file.
+        path: PathBuf,
+        /// What it said.
+        source: std::io::Error,
+    },
+    /// A file is not what it should be.
+    #[error("{} is damaged: {reason}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A file was written by a version that this one does not know.
+    #[error("{} has format version {found}, and this program reads version {known}", path.display())]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+        /// Ours.
+        known: u32,
+    },
+}
+
+impl StoreError {
+    fn io<'a>(action: &'static str, path: &'a Path) -> impl FnOnce(std::io::Error) -> Self + 'a {
+        move |source| StoreError::Io { action, path: path.to_owned(), source }
+    }
+
+    fn damaged(path: &Path, reason: impl Into<String>) -> Self {
+        StoreError::Damaged { path: path.to_owned(), reason: reason.into() }
+    }
+}
+
+/// No record or state of ours is larger than this, in bytes: a length that says so is a damaged one, and no
+/// memory is asked for on its word.
+const BYTES_MAX: usize = 1 << 30;
+
+fn codec() -> impl bincode::config::Config {
+    bincode::config::standard().with_fixed_int_encoding().with_limit::<BYTES_MAX>()
+}
+
+fn encode<T: Serialize>(value: &T) -> Vec<u8> {
+    bincode::serde::encode_to_vec(value, codec())
+        .expect("our records are plain data, without maps or cycles")
+}
+
+fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+    match bincode::serde::decode_from_slice(bytes, codec()) {
+        Ok((value, read)) if read == bytes.len() => Ok(value),
+        Ok((_, read)) => Err(format!("{} bytes too many", bytes.len() - read)),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// The checksum of what is stored: the first 8 bytes of its BLAKE3 hash.
+fn checksum(bytes: &[u8]) -> [u8; 8] {
+    let hash = blake3::hash(bytes);
+    *hash.as_bytes().first_chunk().expect("a hash has 32 bytes")
+}
