@@ -5,3 +5,5 @@ pub mod rng;
 pub mod evolution;
 
 pub mod archipelago;
+
+pub mod transport;
