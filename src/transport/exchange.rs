@@ -130,7 +130,13 @@ impl<G: Gene> Exchange<G> {
     /// whether somebody did. Call it again and again while there is nothing else to do: it also connects
     /// this island to neighbours that were born meanwhile, who would otherwise wait for it for ever.
     pub fn wait(&self, timeout: Duration) -> Result<bool, TransportError> {
-        let woken = match self.listener.timed_wait(|_| (), timeout.min(TICK)) {
+        // A socket takes no time-out at all for one without end.
+        let heard = if timeout < Duration::from_micros(1) {
+            self.listener.try_wait(|_| ())
+        } else {
+            self.listener.timed_wait(|_| (), timeout.min(TICK))
+        };
+        let woken = match heard {
             Ok(notifications) => notifications > 0,
             Err(ListenerWaitError::InterruptSignal) => false,
             Err(cause) => return Err(TransportError::Wait { cause: format!("{cause:?}") }),

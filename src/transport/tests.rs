@@ -321,8 +321,7 @@ fn a_harbour_leaves_nothing_behind() {
 #[test]
 fn the_folder_is_for_this_user_only() {
     use std::os::unix::fs::PermissionsExt;
-    let (domain, ..) = launch(11, 1);
-    let _harbour = Harbour::<TestGene>::create(&domain, &archipelago(1)).unwrap();
+    let (domain, _, _harbour) = launch(11, 1);
     assert_eq!(fs::metadata(domain.root()).unwrap().permissions().mode() & 0o777, 0o700);
 }
 
@@ -373,8 +372,8 @@ fn sail(
             inbox.accept(outbox);
         }
         if let Some(outboxes) = inbox.take(epoch) {
-            let expected = archipelago.in_neighbours(island).iter().map(|&i| outbox(i, epoch));
-            assert_eq!(outboxes, expected.collect::<Vec<_>>());
+            let sources = archipelago.in_neighbours(island).into_iter();
+            assert_eq!(outboxes, sources.map(|i| outbox(i, epoch)).collect::<Vec<_>>());
             taken.push(epoch);
             quiet = 0;
             continue;
