@@ -3,7 +3,7 @@
 use super::TransportError;
 use iceoryx2::prelude::{Config, FileName, LogLevel, Path, SemanticString, set_log_level};
 use std::fmt;
-use std::fs::{self, DirBuilder};
+use std::fs::{self, DirBuilder, File, Metadata};
 use std::io;
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path as FsPath, PathBuf};
@@ -19,6 +19,14 @@ const ROOT_AND_PREFIX_MAX: usize = 64;
 /// An object that a process was killed over while it was making it. A living one needs microseconds.
 const STILLBORN_AFTER: Duration = Duration::from_millis(5);
 
+/// The file in a domain's folder that its launcher holds a lock on while it lives.
+const OWNER: &str = "launcher";
+/// A launcher needs microseconds to lock it.
+const ABANDONED_AFTER: Duration = Duration::from_secs(60);
+
+/// What folders and prefixes begin with.
+const NAME: &str = "isl";
+
 /// The place of one run: a prefix for all its objects in shared memory, and a folder for its files.
 ///
 /// Both follow from the run's id, so that a child needs nothing else to find its run: hand it
@@ -32,7 +40,7 @@ pub struct Domain {
 impl Domain {
     /// The domain of a run. The id must be one that no other run on this machine has.
     pub fn new(run_id: u64) -> Self {
-        let folder = format!("isl{run_id:016x}");
+        let folder = format!("{NAME}{run_id:016x}");
         let root = std::env::temp_dir().join(&folder);
         // A long TMPDIR is common (macOS, build systems), and /tmp always works.
         let root = if fits(run_id, &root) { root } else { FsPath::new("/tmp").join(folder) };
@@ -54,12 +62,38 @@ impl Domain {
         prefix(self.run_id)
     }
 
-    /// Makes the root folder, for this user only.
-    pub(super) fn create(&self) -> Result<(), TransportError> {
-        DirBuilder::new()
-            .mode(0o700)
-            .create(&self.root)
-            .map_err(|source| TransportError::folder(&self.root, source))
+    /// Makes the root folder, for this user only, and claims it for as long as the file that it returns is
+    /// open.
+    pub(super) fn create(&self) -> Result<File, TransportError> {
+        let claim = || {
+            DirBuilder::new().mode(0o700).create(&self.root)?;
+            let owner = File::create_new(self.root.join(OWNER))?;
+            owner.try_lock()?;
+            Ok(owner)
+        };
+        claim().map_err(|source| TransportError::folder(&self.root, source))
+    }
+
+    /// Removes all domains of this user whose launcher was killed, and returns how many there were: a killed
+    /// launcher leaves its shared memory behind until the machine is started again.
+    pub fn remove_abandoned() -> usize {
+        let here = Self::new(0);
+        let Some(Ok(folders)) = here.root.parent().map(fs::read_dir) else { return 0 };
+        let domains = folders.filter_map(|entry| {
+            let name = entry.ok()?.file_name();
+            let id = name.to_str()?.strip_prefix(NAME).filter(|id| id.len() == 16)?;
+            id.parse::<Self>().ok()
+        });
+        domains.filter(Self::is_abandoned).filter(|domain| domain.remove().is_ok()).count()
+    }
+
+    // Nobody holds the claim, and not because it is being made just now.
+    fn is_abandoned(&self) -> bool {
+        let owner = File::open(self.root.join(OWNER));
+        owner.is_ok_and(|owner| {
+            let age = owner.metadata().ok().and_then(|status| age(&status));
+            age.is_some_and(|age| age > ABANDONED_AFTER) && owner.try_lock().is_ok()
+        })
     }
 
     /// The configuration of iceoryx2 that keeps to this domain.
@@ -99,8 +133,7 @@ impl Domain {
     pub fn remove_stillborn(&self) -> usize {
         let stillborn = |path: &PathBuf| {
             let Ok(status) = fs::metadata(path) else { return false };
-            let age = status.modified().ok().and_then(|m| SystemTime::now().duration_since(m).ok());
-            status.len() == 0 && age.is_some_and(|age| age > STILLBORN_AFTER)
+            status.len() == 0 && age(&status).is_some_and(|age| age > STILLBORN_AFTER)
         };
         let objects = self.objects().into_iter().filter(stillborn);
         objects.filter(|path| fs::remove_file(path).is_ok()).count()
@@ -143,8 +176,13 @@ impl FromStr for Domain {
     }
 }
 
+// None for what comes from the future, since a clock was set back.
+fn age(status: &Metadata) -> Option<Duration> {
+    SystemTime::now().duration_since(status.modified().ok()?).ok()
+}
+
 fn prefix(run_id: u64) -> String {
-    format!("isl{run_id:016x}_")
+    format!("{NAME}{run_id:016x}_")
 }
 
 fn fits(run_id: u64, root: &FsPath) -> bool {
@@ -198,7 +236,7 @@ mod tests {
         let now = SystemTime::now();
         let write = |path: &FsPath, bytes: &[u8], modified| {
             fs::write(path, bytes).unwrap();
-            fs::File::open(path).unwrap().set_modified(modified).unwrap();
+            File::open(path).unwrap().set_modified(modified).unwrap();
         };
         write(&object("empty"), &[], now - 2 * STILLBORN_AFTER);
         write(&object("full"), &[1], now - 2 * STILLBORN_AFTER);
@@ -209,5 +247,22 @@ mod tests {
         domain.remove().unwrap();
         assert!(!object("full").exists() && stranger.exists());
         fs::remove_file(stranger).unwrap();
+    }
+
+    #[test]
+    fn what_a_killed_launcher_left_is_removed_and_nothing_else() {
+        let domain = |test: u64| Domain::new(test << 40 | u64::from(std::process::id()));
+        let [dead, alive] = [domain(0xdead), domain(0xa11e)];
+        let claims = [&dead, &alive].map(|domain| domain.create().unwrap());
+        let object = FsPath::new(SHARED_MEMORY).join(dead.prefix() + "object");
+        fs::write(&object, [1]).unwrap();
+        for claim in &claims {
+            claim.set_modified(SystemTime::now() - 2 * ABANDONED_AFTER).unwrap();
+        }
+        let [claim, _alive] = claims;
+        drop(claim);
+        Domain::remove_abandoned();
+        assert!(!dead.root().exists() && !object.exists() && alive.root().exists());
+        alive.remove().unwrap();
     }
 }

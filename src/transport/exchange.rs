@@ -1,7 +1,7 @@
 //! An island's end.
 
 use super::ports::{self, Inlet, Outlet, RequestInlet, RequestOutlet};
-use super::services::{self, Ipc, Node, Plan};
+use super::services::{self, Ipc, Node, Plan, WITH_SUCCESSOR};
 use super::wire::{BatchHeader, Limits, Rejection, ReportHeader, ResendRequest};
 use super::{Domain, TransportError};
 use crate::archipelago::{Archipelago, Outbox, Report};
@@ -94,7 +94,7 @@ impl<G: Gene> Exchange<G> {
     pub fn receive(&self) -> Received<G> {
         let mut received = Received { outboxes: Vec::new(), rejected: Vec::new() };
         for (&island, source) in &self.sources {
-            ports::drain(&source.outboxes, |header, genes| {
+            ports::drain(&source.outboxes, WITH_SUCCESSOR, |header, genes| {
                 match self.limits.outbox(island, header, genes) {
                     Ok(outbox) => received.outboxes.push(outbox),
                     Err(rejection) => received.rejected.push((island, rejection)),
@@ -118,7 +118,8 @@ impl<G: Gene> Exchange<G> {
     /// on are to be published again. Requests that cannot be meant are ignored.
     pub fn requests(&self) -> Option<u32> {
         let mut earliest: Option<u32> = None;
-        ports::drain_requests(&self.requests, |request| {
+        let senders = WITH_SUCCESSOR * self.out_neighbours.len();
+        ports::drain_requests(&self.requests, senders, |request| {
             if let Ok(epoch) = self.limits.requested(request, &self.out_neighbours) {
                 earliest = Some(earliest.map_or(epoch, |other| other.min(epoch)));
             }

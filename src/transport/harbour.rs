@@ -6,6 +6,7 @@ use super::services::{
 use super::{Domain, TransportError};
 use crate::archipelago::Archipelago;
 use crate::evolution::Gene;
+use std::fs::File;
 use std::time::Duration;
 
 /// How long to wait for someone else who cleans up. There is nobody else: this is for the unforeseen.
@@ -19,6 +20,8 @@ const CLEANUP_MAX: Duration = Duration::from_millis(500);
 pub struct Harbour<G: Gene> {
     services: Option<Services<G>>,
     domain: Domain,
+    // Held open: it tells other launchers that this one lives.
+    _claim: File,
 }
 
 #[derive(Debug)]
@@ -31,13 +34,15 @@ struct Services<G: Gene> {
 }
 
 impl<G: Gene> Harbour<G> {
-    /// Creates the domain's folder and every service of the run, once there is memory enough for it.
+    /// Creates the domain's folder and every service of the run, once there is memory enough for it. What
+    /// killed launchers have left is removed first.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
+        Domain::remove_abandoned();
         domain.check_space(plan.bytes::<G>())?;
-        domain.create()?;
+        let claim = domain.create()?;
         // From here on dropping it removes what was made, also where the rest of the making fails.
-        let mut harbour = Self { services: None, domain: domain.clone() };
+        let mut harbour = Self { services: None, domain: domain.clone(), _claim: claim };
         harbour.services = Some(Services::create(domain, &plan, archipelago.islands)?);
         Ok(harbour)
     }

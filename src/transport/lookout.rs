@@ -1,7 +1,7 @@
 //! The end of those who only look: the launcher's progress bars and the monitor.
 
 use super::ports::{self, Inlet};
-use super::services::{self, Node, Plan};
+use super::services::{self, Node, Plan, WITH_SUCCESSOR};
 use super::wire::{Limits, ReportHeader, Sighting};
 use super::{Domain, TransportError};
 use crate::archipelago::Archipelago;
@@ -30,7 +30,8 @@ impl<G: Gene> Lookout<G> {
     /// looked for long; an island that was born again repeats some. What is malformed is left out.
     pub fn receive(&self) -> Vec<Sighting<G>> {
         let mut sightings = Vec::new();
-        ports::drain(&self.reports, |header, genes| {
+        let senders = WITH_SUCCESSOR * self.limits.islands as usize;
+        ports::drain(&self.reports, senders, |header, genes| {
             sightings.extend(self.limits.sighting(header, genes).ok());
         });
         sightings

@@ -12,7 +12,8 @@
 //! | `reports` | all islands | launcher and monitor | the oldest is forgotten |
 //!
 //! A [`Domain`] keeps a run apart from all others. The launcher's [`Harbour`] creates the services, holds
-//! them open while islands come and go, cleans up after the dead and leaves nothing behind. An island opens an
+//! them open while islands come and go, cleans up after the dead and leaves nothing behind; what a killed
+//! launcher leaves, the next one removes. An island opens an
 //! [`Exchange`]; who wants to watch opens a [`Lookout`].
 //!
 //! # How it is meant to be used

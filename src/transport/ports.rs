@@ -36,22 +36,23 @@ pub fn send<G: Gene, Header: ZeroCopySend + Debug + Default>(
     Ok(sample.send().unwrap_or(0))
 }
 
-/// Hands every sample that has arrived to `each`, header copied.
+/// Hands every sample that has arrived from up to `senders` senders to `each`, header copied.
 pub fn drain<G: Gene, Header: ZeroCopySend + Debug + Copy>(
     inlet: &Inlet<G, Header>,
+    senders: usize,
     mut each: impl FnMut(Header, &[WireGene<G>]),
 ) {
     // Bounded, lest a sender that never stops holds the reader for ever. An error is a sender that has just
     // died: what it still had to say comes at the next call, or is asked for.
-    for _ in 0..2 * inlet.buffer_size() {
+    for _ in 0..senders * inlet.buffer_size() {
         let Ok(Some(sample)) = inlet.receive() else { break };
         each(*sample.user_header(), sample.payload());
     }
 }
 
-/// Hands every request that has arrived to `each`.
-pub fn drain_requests(inlet: &RequestInlet, mut each: impl FnMut(ResendRequest)) {
-    for _ in 0..8 * inlet.buffer_size() {
+/// The same for requests.
+pub fn drain_requests(inlet: &RequestInlet, senders: usize, mut each: impl FnMut(ResendRequest)) {
+    for _ in 0..senders * inlet.buffer_size() {
         let Ok(Some(sample)) = inlet.receive() else { break };
         each(*sample.payload());
     }

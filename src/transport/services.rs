@@ -26,7 +26,7 @@ const BORROWED: usize = 2;
 /// Samples that a sender fills at once.
 const LOANED: usize = 2;
 /// A dead process occupies its places until the launcher has cleaned up after it: so one more of all.
-const WITH_SUCCESSOR: usize = 2;
+pub const WITH_SUCCESSOR: usize = 2;
 /// Beyond this a reader that is further behind asks for what it missed; memory stays bounded.
 const HISTORY_MAX: usize = 64;
 const REQUESTS_KEPT: usize = 16;
@@ -185,6 +185,10 @@ impl Plan {
 
 /// This process's membership of the domain.
 pub fn join(domain: &Domain) -> Result<Node, TransportError> {
+    // iceoryx2 would make the domain anew, and nobody would remove it.
+    if !domain.root().is_dir() {
+        return Err(TransportError::open("folder", format!("no {}", domain.root().display())));
+    }
     // Signals are the application's: a library that catches Ctrl-C would keep it from the launcher.
     NodeBuilder::new()
         .config(&domain.config()?)

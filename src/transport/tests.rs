@@ -10,7 +10,8 @@ use crate::evolution::{Fitness, Gene, Id, Individual, Selection, Statistics, Str
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::time::Duration;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
 #[repr(transparent)]
@@ -299,7 +300,7 @@ fn without_a_launcher_nothing_opens_and_the_error_says_so() {
     let (domain, archipelago) = (domain(9), archipelago(2));
     let error = Exchange::<TestGene>::open(&domain, &archipelago, 0).unwrap_err().to_string();
     assert!(error.contains("launcher is running"), "{error}");
-    domain.remove().unwrap();
+    assert_eq!(remains(&domain), [""; 0]);
 }
 
 #[test]
@@ -344,6 +345,44 @@ fn an_end_can_be_lent_to_another_thread() {
     sendable::<Exchange<TestGene>>();
     sendable::<Lookout<TestGene>>();
     sendable::<Harbour<TestGene>>();
+}
+
+const CHILD: &str = "ISLANDS_TEST_CHILD";
+
+/// Not a test but a process of the next one, which starts it by this name.
+#[test]
+fn child() {
+    let Ok(run_id) = std::env::var(CHILD) else { return };
+    let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), 0).unwrap();
+    for epoch in 0.. {
+        exchange.publish(&outbox(0, epoch)).unwrap();
+        exchange.receive();
+        exchange.wait(TICK).unwrap();
+    }
+}
+
+#[test]
+fn an_island_that_is_killed_can_be_born_again_and_again() {
+    let (domain, archipelago, harbour) = launch(14, 2);
+    let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
+    for life in 0..6 {
+        let mut command = Command::new(std::env::current_exe().unwrap());
+        command.args(["transport::tests::child", "--exact"]).stdout(Stdio::null());
+        let mut child = command.env(CHILD, domain.to_string()).spawn().unwrap();
+        let deadline = Instant::now() + Duration::from_secs(60);
+        // Epoch 2 needs a neighbour that sees ports that were opened after its own.
+        while !epochs(exchange.receive()).contains(&2) {
+            assert!(Instant::now() < deadline, "nothing came in life {life}");
+            exchange.publish(&outbox(1, life)).unwrap();
+            exchange.wait(TICK).unwrap();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
+    }
+    drop(exchange);
+    harbour.close().unwrap();
+    assert_eq!(remains(&domain), [""; 0]);
 }
 
 /// An island that does nothing but exchange, as the real one does it.
