@@ -3,9 +3,9 @@
 use super::TransportError;
 use iceoryx2::prelude::{Config, FileName, LogLevel, Path, SemanticString, set_log_level};
 use std::fmt;
-use std::fs::{self, DirBuilder, File, Metadata};
+use std::fs::{self, DirBuilder, File, Metadata, Permissions};
 use std::io;
-use std::os::unix::fs::DirBuilderExt;
+use std::os::unix::fs::{DirBuilderExt, PermissionsExt};
 use std::path::{Path as FsPath, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, SystemTime};
@@ -67,6 +67,8 @@ impl Domain {
     pub(super) fn create(&self) -> Result<File, TransportError> {
         let claim = || {
             DirBuilder::new().mode(0o700).create(&self.root)?;
+            // Once more, since the mode above is subject to the umask.
+            fs::set_permissions(&self.root, Permissions::from_mode(0o700))?;
             let owner = File::create_new(self.root.join(OWNER))?;
             owner.try_lock()?;
             Ok(owner)

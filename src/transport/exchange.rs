@@ -1,8 +1,9 @@
 //! An island's end.
 
+use super::limits::{Limits, Rejection};
 use super::ports::{self, Inlet, Outlet, RequestInlet, RequestOutlet};
 use super::services::{self, Ipc, Node, Plan, WITH_SUCCESSOR};
-use super::wire::{BatchHeader, Limits, Rejection, ReportHeader, ResendRequest};
+use super::wire::{BatchHeader, ReportHeader, ResendRequest};
 use super::{Domain, TransportError};
 use crate::archipelago::{Archipelago, Outbox, Report};
 use crate::evolution::{Gene, Individual};
@@ -50,6 +51,9 @@ pub struct Received<G> {
 
 impl<G: Gene> Exchange<G> {
     /// Opens the ports of `island`. The services must exist: the launcher creates them.
+    ///
+    /// Call it before other threads make files: iceoryx2 changes the umask of the whole process while it
+    /// makes its socket.
     pub fn open(
         domain: &Domain,
         archipelago: &Archipelago,

@@ -1,8 +1,9 @@
 //! The end of those who only look: the launcher's progress bars and the monitor.
 
+use super::limits::{Limits, Sighting};
 use super::ports::{self, Inlet};
 use super::services::{self, Node, Plan, WITH_SUCCESSOR};
-use super::wire::{Limits, ReportHeader, Sighting};
+use super::wire::ReportHeader;
 use super::{Domain, TransportError};
 use crate::archipelago::Archipelago;
 use crate::evolution::Gene;

@@ -41,6 +41,7 @@
 mod domain;
 mod exchange;
 mod harbour;
+mod limits;
 mod lookout;
 mod ports;
 mod services;
@@ -51,8 +52,8 @@ pub mod wire;
 pub use domain::Domain;
 pub use exchange::{Exchange, Received, TICK};
 pub use harbour::Harbour;
+pub use limits::{Limits, Rejection, Sighting};
 pub use lookout::Lookout;
-pub use wire::{Rejection, Sighting};
 
 use std::fmt::Display;
 use std::io;

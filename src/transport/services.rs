@@ -1,7 +1,8 @@
 //! Every service of a run: its name, what it carries and how much of it. Written once, for those who create
 //! the services and those who open them.
 
-use super::wire::{BatchHeader, Limits, ReportHeader, ResendRequest, WireGene};
+use super::limits::Limits;
+use super::wire::{BatchHeader, ReportHeader, ResendRequest, WireGene};
 use super::{Domain, TransportError};
 use crate::archipelago::Archipelago;
 use crate::archipelago::migration::MIGRANTS_MAX;

@@ -2,7 +2,7 @@
 
 use super::ports;
 use super::services::{self, Plan};
-use super::wire::{BatchHeader, Limits, NOBODY, ReportHeader, ResendRequest, WireGene};
+use super::wire::{BatchHeader, NOBODY, ReportHeader, ResendRequest, WireGene};
 use super::*;
 use crate::archipelago::{Archipelago, Inbox, Migration, Outbox, Report, Topology};
 use crate::evolution::generation::Effort;
