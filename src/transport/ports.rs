@@ -1,7 +1,7 @@
 //! The ports of the services, and how they are read and written.
 
 use super::TransportError;
-use super::services::{Ipc, Node, Plan};
+use super::services::{Ipc, LOANED, Node, Plan};
 use super::wire::{BatchHeader, ReportHeader, ResendRequest, WireGene};
 use crate::evolution::Gene;
 use iceoryx2::port::DegradationAction;
@@ -151,6 +151,7 @@ fn outlet<G: Gene, Header: ZeroCopySend + Debug>(
     service
         .publisher_builder()
         .initial_max_slice_len(genes_max)
+        .max_loaned_samples(LOANED)
         .allocation_strategy(AllocationStrategy::Static)
         .backpressure_strategy(BackpressureStrategy::DiscardData)
         .set_degradation_handler(|_, _| DegradationAction::Ignore)

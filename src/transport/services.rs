@@ -25,7 +25,7 @@ pub type WakeUpService = iceoryx2::service::port_factory::event::PortFactory<Ipc
 /// Samples that a reader holds at once: one is read, and one may be left over by a dead process.
 const BORROWED: usize = 2;
 /// Samples that a sender fills at once.
-const LOANED: usize = 2;
+pub const LOANED: usize = 2;
 /// A dead process occupies its places until the launcher has cleaned up after it: so one more of all.
 pub const WITH_SUCCESSOR: usize = 2;
 /// Beyond this a reader that is further behind asks for what it missed; memory stays bounded.
@@ -74,7 +74,7 @@ impl Plan {
     /// Shared memory for the whole run, in bytes, from above: what senders reserve for samples, with a
     /// successor for each, and a generous flat rate for the rest.
     pub fn bytes<G: Gene>(&self) -> u64 {
-        const PORT: usize = 64 << 10;
+        const PORT: usize = 16 << 10;
         const CHUNK: usize = 256;
         let sample = |header: usize, genes: usize| {
             genes.saturating_mul(size_of::<G>()).saturating_add(header + CHUNK)

@@ -336,6 +336,7 @@ fn a_run_takes_no_more_shared_memory_than_was_asked_for() {
     let taken: u64 = remains(&domain).into_iter().map(size).sum();
     let asked = Harbour::<TestGene>::bytes_needed(&domain, &archipelago).unwrap();
     assert!(taken > 0 && 2 * taken <= asked, "{taken} of {asked} bytes, without any successor");
+    assert!(asked < 10 * taken, "{taken} of {asked} bytes: small machines must not be turned away");
     drop((exchanges, lookout));
 }
 
