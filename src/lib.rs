@@ -2,17 +2,16 @@
 
 pub mod rng;
 
+pub mod creature;
 pub mod evolution;
 
-pub mod creature;
-
 pub mod archipelago;
-
 pub mod simulation;
 
 pub mod problems;
 
+pub mod formats;
 pub mod store;
-
+pub mod transport;
 #[cfg(feature = "view")]
 pub mod view;

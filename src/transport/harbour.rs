@@ -1,0 +1,109 @@
+//! The launcher's end: the services of a run, from before its first island until after its last.
+
+use super::services::{
+    self, Node, OutboxService, Plan, ReportService, RequestService, WakeUpService,
+};
+use super::{Domain, TransportError};
+use crate::archipelago::Archipelago;
+use crate::evolution::Gene;
+use std::fs::File;
+use std::time::Duration;
+
+/// How long to wait for someone else who cleans up. There is nobody else: this is for the unforeseen.
+const CLEANUP_MAX: Duration = Duration::from_millis(500);
+
+/// Holds all services of a run open, so that islands can come, die and come again.
+///
+/// When it is dropped nothing of the run is left, neither in shared memory nor in the file system: let all
+/// islands end first.
+#[derive(Debug)]
+pub struct Harbour<G: Gene> {
+    services: Option<Services<G>>,
+    domain: Domain,
+    // Held open: it tells other launchers that this one lives.
+    _claim: File,
+}
+
+#[derive(Debug)]
+struct Services<G: Gene> {
+    node: Node,
+    _outboxes: Vec<OutboxService<G>>,
+    _requests: Vec<RequestService>,
+    _wake_ups: Vec<WakeUpService>,
+    _reports: ReportService<G>,
+}
+
+impl<G: Gene> Harbour<G> {
+    /// Creates the domain's folder and every service of the run, once there is memory enough for it. What
+    /// killed launchers have left is removed first.
+    pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
+        let plan = Plan::new(domain, archipelago)?;
+        Domain::remove_abandoned();
+        domain.check_space(plan.bytes::<G>())?;
+        let claim = domain.create()?;
+        // From here on dropping it removes what was made, also where the rest of the making fails.
+        let mut harbour = Self { services: None, domain: domain.clone(), _claim: claim };
+        harbour.services = Some(Services::create(domain, &plan, archipelago.islands)?);
+        Ok(harbour)
+    }
+
+    /// The shared memory that the run needs at most, in bytes.
+    pub fn bytes_needed(domain: &Domain, archipelago: &Archipelago) -> Result<u64, TransportError> {
+        Ok(Plan::new(domain, archipelago)?.bytes::<G>())
+    }
+
+    /// Gives free what dead islands held, and returns how many there were. Call it after the death of a
+    /// child was waited for and before its successor is started. Nobody but the launcher may.
+    pub fn cleanup_dead_nodes(&self) -> Result<u64, TransportError> {
+        let Some(services) = &self.services else { return Ok(0) };
+        self.domain.remove_stillborn();
+        let state = services.node.blocking_cleanup_dead_nodes(CLEANUP_MAX);
+        match state.failed_cleanups {
+            0 => Ok(state.cleanups),
+            dead => Err(TransportError::Cleanup { dead }),
+        }
+    }
+
+    /// Ends the services and removes the domain. Dropping does the same and says nothing.
+    pub fn close(mut self) -> Result<(), TransportError> {
+        self.remove()
+    }
+
+    fn remove(&mut self) -> Result<(), TransportError> {
+        self.services = None;
+        self.domain.remove()
+    }
+}
+
+impl<G: Gene> Drop for Harbour<G> {
+    fn drop(&mut self) {
+        // There is nobody left to tell, and what is left over is some files.
+        let _ = self.remove();
+    }
+}
+
+impl<G: Gene> Services<G> {
+    fn create(domain: &Domain, plan: &Plan, islands: u32) -> Result<Self, TransportError> {
+        let node = services::join(domain)?;
+        let outboxes = |island| {
+            let service = plan.outboxes::<G>(&node, island)?.create();
+            service.map_err(|e| TransportError::setup("outboxes", e))
+        };
+        let requests = |island| {
+            let service = plan.requests(&node, island)?.create();
+            service.map_err(|e| TransportError::setup("requests", e))
+        };
+        let wake_ups = |island| {
+            let service = plan.wake_up(&node, island)?.create();
+            service.map_err(|e| TransportError::setup("wake-ups", e))
+        };
+        let reports = plan.reports::<G>(&node)?.create();
+        Ok(Self {
+            _outboxes: (0..islands).map(outboxes).collect::<Result<_, _>>()?,
+            _requests: (0..islands).map(requests).collect::<Result<_, _>>()?,
+            _wake_ups: (0..islands).map(wake_ups).collect::<Result<_, _>>()?,
+            _reports: reports.map_err(|e| TransportError::setup("reports", e))?,
+            node,
+        })
+    }
+}

@@ -1,0 +1,237 @@
+//! The only way into the wire types and out of them.
+//!
+//! Any process of the same user can write into shared memory, and memory can change while it is read. So
+//! everything received is copied first, and it is the copy that is checked.
+
+use super::wire::{BatchHeader, IndividualHeader, NOBODY, ReportHeader, ResendRequest, WireGene};
+use crate::archipelago::migration::MIGRANTS_MAX;
+use crate::archipelago::{Archipelago, Outbox, Report};
+use crate::evolution::generation::Effort;
+use crate::evolution::{Fitness, Gene, Id, Individual, Statistics};
+
+/// Why something received was not accepted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Rejection {
+    /// It belongs to another run.
+    #[error("it belongs to another run")]
+    Run,
+    /// There is no such island, or not in this place.
+    #[error("it names an island that it cannot be from")]
+    Island,
+    /// There are more migrants than an outbox of this run can have.
+    #[error("it has more migrants than an outbox can carry")]
+    Count,
+    /// A genome is empty or too long, or genomes and payload differ in length.
+    #[error("its genomes do not have the lengths that they may have")]
+    Length,
+    /// A gene may not be used.
+    #[error("it has a gene that is not valid")]
+    Gene,
+    /// A fitness or another number is not one.
+    #[error("it has a number that is not one")]
+    Number,
+    /// Someone's birthplace does not exist.
+    #[error("it has an individual from nowhere")]
+    Lineage,
+}
+
+/// What a report says.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sighting<G> {
+    /// What the generation was like.
+    pub report: Report,
+    /// Wall seconds that it took.
+    pub seconds: f64,
+    /// The island's champion, if it is a new one.
+    pub champion: Option<Individual<G>>,
+}
+
+/// What everything that travels in one run must respect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// The run.
+    pub run_id: u64,
+    /// Its islands.
+    pub islands: u32,
+    /// The most migrants of an outbox.
+    pub migrants: usize,
+    /// The longest genome, in genes.
+    pub genes_max: usize,
+}
+
+impl Limits {
+    /// The limits of the run `run_id` of `archipelago`.
+    pub fn of(run_id: u64, archipelago: &Archipelago) -> Self {
+        Self {
+            run_id,
+            islands: archipelago.islands,
+            migrants: archipelago.migration.migrants.min(MIGRANTS_MAX),
+            genes_max: archipelago.strategy.variation.genes_max,
+        }
+    }
+
+    /// The header of an outbox, unless the outbox breaks the limits.
+    pub fn batch<G>(&self, outbox: &Outbox<G>) -> Result<BatchHeader, Rejection> {
+        require(outbox.migrants.len() <= self.migrants, Rejection::Count)?;
+        let mut header = BatchHeader {
+            run_id: self.run_id,
+            island: outbox.island,
+            epoch: outbox.epoch,
+            count: outbox.migrants.len() as u32,
+            ..BatchHeader::default()
+        };
+        for (slot, migrant) in header.migrants.iter_mut().zip(&outbox.migrants) {
+            *slot = self.individual_header(migrant)?;
+        }
+        Ok(header)
+    }
+
+    /// The outbox that a sample says it is, if `source` can have sent it.
+    pub fn outbox<G: Gene>(
+        &self,
+        source: u32,
+        header: BatchHeader,
+        genes: &[WireGene<G>],
+    ) -> Result<Outbox<G>, Rejection> {
+        require(header.run_id == self.run_id, Rejection::Run)?;
+        require(header.island == source && source < self.islands, Rejection::Island)?;
+        require(header.count as usize <= self.migrants, Rejection::Count)?;
+        let mut rest = genes;
+        let migrants = header.migrants[..header.count as usize]
+            .iter()
+            .map(|migrant| self.individual(migrant, &mut rest))
+            .collect::<Result<Vec<_>, _>>()?;
+        require(rest.is_empty(), Rejection::Length)?;
+        Ok(Outbox { island: header.island, epoch: header.epoch, migrants })
+    }
+
+    /// The header of a report, unless the champion breaks the limits.
+    pub fn report<G>(
+        &self,
+        report: &Report,
+        seconds: f64,
+        champion: Option<&Individual<G>>,
+    ) -> Result<ReportHeader, Rejection> {
+        let Report { island, generation, statistics, effort, immigrants } = *report;
+        let header = champion.map(|champion| self.individual_header(champion)).transpose()?;
+        Ok(ReportHeader {
+            run_id: self.run_id,
+            island,
+            generation,
+            immigrants,
+            has_champion: u32::from(champion.is_some()),
+            champion: header.unwrap_or_default(),
+            best: statistics.best.get(),
+            mean: statistics.mean.get(),
+            median: statistics.median.get(),
+            diversity: statistics.diversity,
+            seconds,
+            evaluations: effort.evaluations,
+            reused: effort.reused,
+            outcomes: effort.outcomes,
+        })
+    }
+
+    /// The report that a sample says it is.
+    pub fn sighting<G: Gene>(
+        &self,
+        header: ReportHeader,
+        genes: &[WireGene<G>],
+    ) -> Result<Sighting<G>, Rejection> {
+        require(header.run_id == self.run_id, Rejection::Run)?;
+        require(header.island < self.islands, Rejection::Island)?;
+        require(header.seconds.is_finite() && header.seconds >= 0.0, Rejection::Number)?;
+        let mut rest = genes;
+        let champion = match header.has_champion {
+            0 => None,
+            1 => Some(self.individual(&header.champion, &mut rest)?),
+            _ => return Err(Rejection::Count),
+        };
+        require(rest.is_empty(), Rejection::Length)?;
+        let report = Report {
+            island: header.island,
+            generation: header.generation,
+            statistics: statistics(&header)?,
+            effort: effort(&header)?,
+            immigrants: header.immigrants,
+        };
+        Ok(Sighting { report, seconds: header.seconds, champion })
+    }
+
+    /// The epoch that a request asks for, if one of `askers` made it.
+    pub fn requested(&self, request: ResendRequest, askers: &[u32]) -> Result<u32, Rejection> {
+        require(request.run_id == self.run_id, Rejection::Run)?;
+        require(askers.contains(&request.asker), Rejection::Island)?;
+        Ok(request.epoch)
+    }
+
+    fn individual_header<G>(&self, from: &Individual<G>) -> Result<IndividualHeader, Rejection> {
+        require((1..=self.genes_max).contains(&from.genome.len()), Rejection::Length)?;
+        Ok(IndividualHeader {
+            fitness: from.fitness.get(),
+            gene_count: from.genome.len() as u32,
+            id: birthplace(from.id),
+            parents: from.parents.map(|parent| parent.map_or(NOBODY, birthplace)),
+        })
+    }
+
+    fn individual<G: Gene>(
+        &self,
+        header: &IndividualHeader,
+        rest: &mut &[WireGene<G>],
+    ) -> Result<Individual<G>, Rejection> {
+        let count = header.gene_count as usize;
+        require((1..=self.genes_max).contains(&count), Rejection::Length)?;
+        let (genes, others) = rest.split_at_checked(count).ok_or(Rejection::Length)?;
+        *rest = others;
+        let genome: Vec<G> = genes.iter().map(|gene| gene.0).collect();
+        require(genome.iter().all(Gene::is_valid), Rejection::Gene)?;
+        let [mother, father] = header.parents.map(|parent| self.parent(parent));
+        Ok(Individual {
+            id: self.id(header.id)?,
+            parents: [mother?, father?],
+            genome,
+            fitness: fitness(header.fitness)?,
+        })
+    }
+
+    fn parent(&self, parent: [u32; 3]) -> Result<Option<Id>, Rejection> {
+        if parent == NOBODY { Ok(None) } else { self.id(parent).map(Some) }
+    }
+
+    fn id(&self, [island, generation, index]: [u32; 3]) -> Result<Id, Rejection> {
+        require(island < self.islands, Rejection::Lineage)?;
+        Ok(Id { island, generation, index })
+    }
+}
+
+fn require(condition: bool, otherwise: Rejection) -> Result<(), Rejection> {
+    if condition { Ok(()) } else { Err(otherwise) }
+}
+
+fn birthplace(Id { island, generation, index }: Id) -> [u32; 3] {
+    [island, generation, index]
+}
+
+// Fitness::new would quietly turn what is no score into the worst one.
+fn fitness(score: f64) -> Result<Fitness, Rejection> {
+    require(score.is_finite() || score == f64::NEG_INFINITY, Rejection::Number)?;
+    Ok(Fitness::new(score))
+}
+
+fn statistics(header: &ReportHeader) -> Result<Statistics, Rejection> {
+    require(header.diversity.is_finite(), Rejection::Number)?;
+    Ok(Statistics {
+        best: fitness(header.best)?,
+        mean: fitness(header.mean)?,
+        median: fitness(header.median)?,
+        diversity: header.diversity,
+    })
+}
+
+fn effort(header: &ReportHeader) -> Result<Effort, Rejection> {
+    let ReportHeader { evaluations, reused, outcomes, .. } = *header;
+    let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+    require(ended == Some(evaluations), Rejection::Number)?;
+    Ok(Effort { evaluations, reused, outcomes })
+}
