@@ -12,5 +12,7 @@ pub mod simulation;
 
 pub mod problems;
 
+pub mod formats;
+
 #[cfg(feature = "view")]
 pub mod view;
