@@ -55,7 +55,11 @@ pub enum GenomeCsvError {
     #[error("the file holds no gene: give one with at least one line of {PARAMETER_COUNT} numbers")]
     Empty,
     /// A line has not 17 numbers.
-    #[error("line {line} has {columns} columns instead of {PARAMETER_COUNT}: {}", advice(*columns))]
+    #[error(
+        "line {line} has {columns} {} instead of {PARAMETER_COUNT}: {}",
+        if *columns == 1 { "column" } else { "columns" },
+        advice(*columns)
+    )]
     Columns {
         /// The line, from 1.
         line: usize,
