@@ -1,2 +1,4 @@
-//! stub
-fn main() {}
+//! The promises of the crate, a module a subject.
+
+mod course;
+mod tidy;

@@ -81,6 +81,21 @@ impl Shape {
         }
     }
 
+    /// Moments of inertia about the link's axes, for a mass spread evenly over the solid, in kg·m².
+    pub fn inertia_kg_m2(&self, mass_kg: f64) -> Vector3<f64> {
+        match *self {
+            Shape::Cylinder { radius_m, length_m } => {
+                let about_z = radius_m * radius_m / 2.0;
+                let across = about_z / 2.0 + length_m * length_m / 12.0;
+                mass_kg * vector![across, across, about_z]
+            }
+            Shape::Cuboid { half_extents_m } => {
+                let square = half_extents_m.component_mul(&half_extents_m) / 3.0;
+                mass_kg * vector![square.y + square.z, square.x + square.z, square.x + square.y]
+            }
+        }
+    }
+
     /// Half the size of the smallest box around the solid, along the link's axes, in metres.
     pub fn half_extents_m(&self) -> Vector3<f64> {
         match *self {
@@ -204,8 +219,7 @@ fn solid(traits: &Traits) -> Shape {
 /// z straight out from the centre, tilted by the pitch and turned by the yaw; the roll turns it all about
 /// the parent's z axis.
 fn attachment(traits: &Traits, sibling: u32, parent: &Shape, profile: Profile) -> Isometry3<f64> {
-    let [roll, pitch, yaw] = traits.rpy_rad;
-    let roll = roll * f64::from(sibling);
+    let [roll, pitch, yaw] = traits.rpy_rad_of_copy(sibling);
     match profile {
         Profile::Lecture | Profile::Coursework => Isometry3::from_parts(
             Translation3::from(traits.origin),
@@ -236,6 +250,14 @@ mod tests {
         assert_eq!(cylinder.surface_m(&Vector3::zeros()), vector![0.0, 0.0, 2.0]);
         let cuboid = Shape::Cuboid { half_extents_m: vector![1.0, 2.0, 3.0] };
         assert_eq!(cuboid.surface_m(&vector![0.1, 0.2, -0.05]), vector![0.5, 2.0, -0.75]);
+    }
+
+    #[test]
+    fn a_cylinder_and_a_cuboid_resist_turning_as_solids_of_their_mass_do() {
+        let cylinder = Shape::Cylinder { radius_m: 2.0, length_m: 6.0 };
+        assert_eq!(cylinder.inertia_kg_m2(3.0), vector![12.0, 12.0, 6.0]);
+        let cuboid = Shape::Cuboid { half_extents_m: vector![3.0, 3.0, 6.0] };
+        assert_eq!(cuboid.inertia_kg_m2(2.0), vector![30.0, 30.0, 12.0]);
     }
 
     #[test]

@@ -82,6 +82,14 @@ pub struct Traits {
     pub phase_step_rad: f64,
 }
 
+impl Traits {
+    /// Roll, pitch and yaw of the copy with this sibling index, in radians: the roll is multiplied by it.
+    pub fn rpy_rad_of_copy(&self, sibling: u32) -> [f64; 3] {
+        let [roll, pitch, yaw] = self.rpy_rad;
+        [roll * f64::from(sibling), pitch, yaw]
+    }
+}
+
 impl Profile {
     /// The time between two motor updates, in seconds.
     ///

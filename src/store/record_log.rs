@@ -121,7 +121,7 @@ mod tests {
     fn a_flipped_byte_is_noticed_wherever_it_is() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("log");
-        let mut log = RecordLog::open(&path).expect("the folder is writable");
+        let mut log = RecordLog::<u64>::open(&path).expect("the folder is writable");
         log.append(&7_u64).expect("the disk has room");
         let whole = std::fs::read(&path).expect("it is there");
         for at in 0..whole.len() {

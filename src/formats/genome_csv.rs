@@ -1,0 +1,196 @@
+//! Genomes as CSV, in the format of the course: a gene a line, 17 numbers from 0 (included) to 1 (excluded).
+//!
+//! The writer gives each number its shortest form that reads back as the same bits, and ends each with a comma,
+//! as the course does. The reader takes what thousands of existing files hold: commas at the line's end or not,
+//! blank lines, a byte order mark, line ends of any system, and values of 1 and more, which it clamps and
+//! reports. All else is an error that names the line.
+//!
+//! Lines are split here rather than by the csv crate, which counts blank lines wrongly and lets a quoted cell
+//! run over lines.
+
+use crate::creature::gene::{Gene, PARAMETER_COUNT, PARAMETERS, VALUE_MAX};
+use std::fmt;
+use std::io::{self, BufRead, BufReader, Read, Write};
+
+/// The most lines of a file, blank ones included.
+pub const LINES_MAX: usize = 100_000;
+
+/// The most bytes of a line; 17 numbers in their longest useful form need a fifth of it.
+pub const LINE_BYTES_MAX: usize = 1 << 15;
+
+/// A genome that was read.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReadGenome {
+    /// Its genes, at least one.
+    pub genome: Vec<Gene>,
+    /// The values that were clamped, in the order of the file.
+    pub clamped: Vec<Clamped>,
+}
+
+/// A value of 1 or more that became [`VALUE_MAX`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clamped {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Its column, from 1.
+    pub column: usize,
+    /// What the file says.
+    pub value: f64,
+}
+
+impl fmt::Display for Clamped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { line, column, value } = self;
+        write!(f, "{} was {value} and is now just under 1", Place(*line, *column))
+    }
+}
+
+/// Why a genome could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum GenomeCsvError {
+    /// The input could not be read.
+    #[error("the genome cannot be read: {0}")]
+    Read(#[from] io::Error),
+    /// There is no gene.
+    #[error("the file holds no gene: give one with at least one line of {PARAMETER_COUNT} numbers")]
+    Empty,
+    /// A line has not 17 numbers.
+    #[error(
+        "line {line} has {columns} {} instead of {PARAMETER_COUNT}: {}",
+        if *columns == 1 { "column" } else { "columns" },
+        advice(*columns)
+    )]
+    Columns {
+        /// The line, from 1.
+        line: usize,
+        /// How many columns it has.
+        columns: usize,
+    },
+    /// A cell is no number that a gene can hold.
+    #[error(
+        "{} holds {cell:?}: write a number from 0 (included) to 1 (excluded) there",
+        Place(*line, *column)
+    )]
+    Value {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The beginning of the cell.
+        cell: String,
+    },
+    /// A line is not text.
+    #[error("line {line} is not UTF-8 text: give a CSV file of numbers")]
+    NotText {
+        /// The line, from 1.
+        line: usize,
+    },
+    /// A line is too long to be a gene.
+    #[error("line {line} is longer than {LINE_BYTES_MAX} bytes: give a gene a line")]
+    LineTooLong {
+        /// The line, from 1.
+        line: usize,
+    },
+    /// The file is too long to be a genome.
+    #[error("the file has more than {LINES_MAX} lines: give one genome a file")]
+    TooManyLines,
+}
+
+/// Reads a genome.
+///
+/// # Errors
+/// If the input cannot be read, is no such CSV, or is too large.
+pub fn read(input: impl Read) -> Result<ReadGenome, GenomeCsvError> {
+    let mut input = BufReader::new(input);
+    let mut bytes = Vec::new();
+    let mut read = ReadGenome::default();
+    for line in 1.. {
+        if !next_line(&mut input, &mut bytes, line)? {
+            break;
+        }
+        let text = str::from_utf8(&bytes).map_err(|_| GenomeCsvError::NotText { line })?;
+        let text = text.trim_start_matches('\u{feff}').trim();
+        if !text.is_empty() {
+            read.genome.push(parse(text, line, &mut read.clamped)?);
+        }
+    }
+    if read.genome.is_empty() { Err(GenomeCsvError::Empty) } else { Ok(read) }
+}
+
+/// Writes a genome.
+///
+/// # Errors
+/// If the output cannot be written.
+pub fn write(genome: &[Gene], mut output: impl Write) -> io::Result<()> {
+    for gene in genome {
+        let mut line: String = gene.0.iter().map(|value| format!("{value},")).collect();
+        line.push('\n');
+        output.write_all(line.as_bytes())?;
+    }
+    Ok(())
+}
+
+/// Replaces `bytes` by the next line; false at the end of the input.
+fn next_line(
+    input: &mut impl BufRead,
+    bytes: &mut Vec<u8>,
+    line: usize,
+) -> Result<bool, GenomeCsvError> {
+    bytes.clear();
+    input.take(LINE_BYTES_MAX as u64 + 1).read_until(b'\n', bytes)?;
+    if bytes.len() > LINE_BYTES_MAX {
+        return Err(GenomeCsvError::LineTooLong { line });
+    }
+    if line > LINES_MAX && !bytes.is_empty() {
+        return Err(GenomeCsvError::TooManyLines);
+    }
+    Ok(!bytes.is_empty())
+}
+
+fn parse(text: &str, line: usize, clamped: &mut Vec<Clamped>) -> Result<Gene, GenomeCsvError> {
+    let text = text.strip_suffix(',').unwrap_or(text);
+    let columns = text.split(',').count();
+    if columns != PARAMETER_COUNT {
+        return Err(GenomeCsvError::Columns { line, columns });
+    }
+    let mut gene = Gene([0.0; PARAMETER_COUNT]);
+    for ((cell, value), column) in text.split(',').zip(&mut gene.0).zip(1..) {
+        *value = number(cell.trim()).ok_or_else(|| GenomeCsvError::Value {
+            line,
+            column,
+            cell: cell.trim().chars().take(CELL_SHOWN).collect(),
+        })?;
+        if *value > VALUE_MAX {
+            clamped.push(Clamped { line, column, value: *value });
+            *value = VALUE_MAX;
+        }
+    }
+    Ok(gene)
+}
+
+/// Characters of a bad cell that its error shows.
+const CELL_SHOWN: usize = 24;
+
+fn number(cell: &str) -> Option<f64> {
+    let value: f64 = cell.parse().ok()?;
+    (value.is_finite() && value >= 0.0).then_some(value)
+}
+
+/// What to do about a line with a wrong number of columns; 18 and 19 are known from changed course programs.
+fn advice(columns: usize) -> &'static str {
+    match columns {
+        18 => "remove the additional one (link-geometry, usually column 6)",
+        19 => "remove the additional ones (sensor gain and bias, usually columns 18 and 19)",
+        _ => "write a gene a line, its numbers separated by commas",
+    }
+}
+
+/// A line and a column, as messages name it.
+struct Place(usize, usize);
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(line, column) = self;
+        write!(f, "line {line}, column {column} ({})", PARAMETERS[column - 1].name)
+    }
+}
