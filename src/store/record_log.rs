@@ -128,7 +128,8 @@ mod tests {
             let mut flipped = whole.clone();
             flipped[at] ^= 0x10;
             std::fs::write(&path, &flipped).expect("it is writable");
-            assert_eq!(RecordLog::<u64>::read(&path).expect("it is readable"), [], "byte {at}");
+            let read = RecordLog::<u64>::read(&path).expect("it is readable");
+            assert!(read.is_empty(), "byte {at}");
         }
     }
 }
