@@ -1,2 +1,5 @@
-//! stub
-fn main() {}
+//! The program `islands`: see [`islands::app`].
+
+fn main() -> std::process::ExitCode {
+    islands::app::main()
+}

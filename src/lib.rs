@@ -15,3 +15,5 @@ pub mod store;
 pub mod transport;
 #[cfg(feature = "view")]
 pub mod view;
+
+pub mod app;

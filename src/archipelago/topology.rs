@@ -11,6 +11,9 @@ pub enum Topology {
 }
 
 impl Topology {
+    /// Every topology.
+    pub const ALL: [Topology; 1] = [Topology::Ring];
+
     /// Whom `island` of `islands` sends to, ascending; never itself.
     pub fn out_neighbours(self, island: u32, islands: u32) -> Vec<u32> {
         match self {
@@ -24,6 +27,25 @@ impl Topology {
         (0..islands)
             .filter(|&other| self.out_neighbours(other, islands).contains(&island))
             .collect()
+    }
+}
+
+impl std::fmt::Display for Topology {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Topology::Ring => "ring",
+        })
+    }
+}
+
+impl std::str::FromStr for Topology {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Topology::ALL.into_iter().find(|topology| topology.to_string() == text).ok_or_else(|| {
+            let known = Topology::ALL.map(|topology| topology.to_string()).join(", ");
+            format!("unknown topology “{text}”: choose one of {known}")
+        })
     }
 }
 

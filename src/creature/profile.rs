@@ -42,6 +42,17 @@ impl std::fmt::Display for Profile {
     }
 }
 
+impl std::str::FromStr for Profile {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Profile::ALL.into_iter().find(|profile| profile.to_string() == text).ok_or_else(|| {
+            let known = Profile::ALL.map(|profile| profile.to_string()).join(", ");
+            format!("unknown profile “{text}”: choose one of {known}")
+        })
+    }
+}
+
 /// The kind of a link's solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SolidKind {
@@ -180,10 +191,10 @@ mod tests {
     fn every_parameter_of_the_living_profiles_changes_the_decoded_traits() {
         for profile in [Profile::Native, Profile::Lecture] {
             let base = Gene([0.1; PARAMETER_COUNT]);
-            for i in 0..PARAMETER_COUNT {
+            for (i, parameter) in PARAMETERS.iter().enumerate() {
                 let mut other = base;
                 other.0[i] = 0.9;
-                assert_ne!(profile.decode(&base), profile.decode(&other), "{}", PARAMETERS[i].name);
+                assert_ne!(profile.decode(&base), profile.decode(&other), "{}", parameter.name);
             }
         }
     }

@@ -5,11 +5,13 @@ use crate::rng::Stream;
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
+use std::fmt;
+use std::str::FromStr;
 
 /// How parents are picked from a population. An individual that could not be scored is only ever picked
 /// where nothing better is to be had.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "scheme")]
+#[serde(try_from = "String", into = "String")]
 pub enum Selection {
     /// Fitness-proportionate (Holland 1975), shifted so that the smallest score of the population has
     /// no share of the wheel: scores may be negative, and their offset does not matter.
@@ -29,6 +31,56 @@ pub enum Selection {
         /// Above 0, at most 1; at least one individual is kept.
         fraction: f64,
     },
+}
+
+impl fmt::Display for Selection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Selection::Roulette => write!(f, "roulette"),
+            Selection::Tournament { size } => write!(f, "tournament:{size}"),
+            Selection::Rank { pressure } => write!(f, "rank:{pressure}"),
+            Selection::Truncation { fraction } => write!(f, "truncation:{fraction}"),
+        }
+    }
+}
+
+impl FromStr for Selection {
+    type Err = String;
+
+    /// Reads what `Display` writes; without its number a scheme takes its usual one.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (scheme, number) = text.split_once(':').map_or((text, None), |(s, n)| (s, Some(n)));
+        let number = |usual: f64, least: f64, most: f64| match number.map(str::parse::<f64>) {
+            None => Ok(usual),
+            Some(Ok(number)) if (least..=most).contains(&number) => Ok(number),
+            Some(_) => Err(format!("{scheme} takes a number from {least} to {most}")),
+        };
+        match scheme {
+            "roulette" if !text.contains(':') => Ok(Selection::Roulette),
+            "tournament" => {
+                Ok(Selection::Tournament { size: number(3.0, 1.0, 1000.0)?.round() as u32 })
+            }
+            "rank" => Ok(Selection::Rank { pressure: number(1.8, 1.0, 2.0)? }),
+            "truncation" => Ok(Selection::Truncation { fraction: number(0.3, 0.001, 1.0)? }),
+            _ => Err(format!(
+                "unknown selection “{text}”: choose roulette, tournament:3, rank:1.8 or truncation:0.3"
+            )),
+        }
+    }
+}
+
+impl TryFrom<String> for Selection {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Selection> for String {
+    fn from(selection: Selection) -> String {
+        selection.to_string()
+    }
 }
 
 /// A selection scheme made ready for one population: build it once, pick from it often.
@@ -231,6 +283,17 @@ mod tests {
         for scheme in [Selection::Roulette, Selection::Rank { pressure: 1.5 }, SCHEMES[3]] {
             let shares = shares(scheme, &[f64::NAN, 1.0, f64::NEG_INFINITY, 2.0]);
             assert_eq!((shares[0], shares[2]), (0.0, 0.0), "{scheme:?}");
+        }
+    }
+
+    #[test]
+    fn a_scheme_is_read_as_it_is_written() {
+        for scheme in SCHEMES {
+            assert_eq!(scheme.to_string().parse(), Ok(scheme));
+        }
+        assert_eq!("tournament".parse(), Ok(Selection::Tournament { size: 3 }));
+        for wrong in ["", "best", "rank:3", "tournament:x", "roulette:1", "truncation:NaN"] {
+            assert!(wrong.parse::<Selection>().is_err(), "{wrong}");
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! - [`genome_csv`] reads and writes genomes, in the course's format.
 //! - [`inspection`] says in JSON what a genome became, link by link.
+//! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
 //! - [`urdf`] writes a body for other simulators.
 //!
 //! Architecture invariant: nothing here opens a file or changes what it is given; each format reads from any
@@ -9,6 +10,7 @@
 
 pub mod genome_csv;
 pub mod inspection;
+pub mod metrics;
 mod rotation;
 pub mod urdf;
 

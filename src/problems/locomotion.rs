@@ -68,6 +68,17 @@ impl std::fmt::Display for Task {
     }
 }
 
+impl std::str::FromStr for Task {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Task::ALL.into_iter().find(|task| task.to_string() == text).ok_or_else(|| {
+            let known = Task::ALL.map(|task| task.to_string()).join(", ");
+            format!("unknown task “{text}”: choose one of {known}")
+        })
+    }
+}
+
 /// The problem of locomotion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Locomotion {

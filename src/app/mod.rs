@@ -1,0 +1,95 @@
+//! The program: one executable that is launcher, island and monitor.
+//!
+//! [`cli`] is what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
+//! process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with
+//! it, and stop when it closes their standard input. It shows their progress (`progress`), and at the end
+//! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes.
+//!
+//! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
+//! a result.
+
+mod cli;
+pub mod config;
+mod console;
+mod evaluate;
+mod genomes;
+mod inspect;
+mod island;
+mod kinship;
+mod launcher;
+mod monitor;
+mod progress;
+mod replay;
+mod result;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use std::process::ExitCode;
+
+/// Parses the command line, does what it says and returns the program's exit code: 0, 1 if something failed,
+/// 2 if the user has to say something else, 130 if the run was interrupted.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match cli.command {
+        None => launcher::run(&cli.run),
+        Some(Command::Run(args)) => launcher::run(&args),
+        Some(Command::Evaluate(args)) => evaluate::run(&args),
+        Some(Command::Inspect(args)) => inspect::run(&args),
+        Some(Command::Replay(args)) => replay::run(&args),
+        Some(Command::Monitor(args)) => monitor::run(&args),
+        Some(Command::Island(args)) => island::run(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            console::say(&format!("error: {}", failure.message));
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Why the program ends without having done what it was asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct Failure {
+    /// One sentence that says what to do.
+    pub message: String,
+    /// The exit code.
+    pub code: u8,
+}
+
+impl Failure {
+    /// The user has to say something else.
+    pub fn usage(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 2 }
+    }
+
+    /// Something did not work.
+    pub fn failed(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 1 }
+    }
+
+    /// The user stopped it.
+    pub fn interrupted(message: impl Into<String>) -> Self {
+        Self { message: message.into(), code: 130 }
+    }
+}
+
+impl From<crate::store::StoreError> for Failure {
+    fn from(error: crate::store::StoreError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+impl From<crate::transport::TransportError> for Failure {
+    fn from(error: crate::transport::TransportError) -> Self {
+        Self::failed(error.to_string())
+    }
+}
+
+#[cfg(feature = "view")]
+impl From<crate::view::ViewError> for Failure {
+    fn from(error: crate::view::ViewError) -> Self {
+        Self::failed(error.to_string())
+    }
+}

@@ -1,0 +1,112 @@
+//! How a run is getting on: a bar an island on a terminal, plain lines elsewhere.
+
+use super::config::Config;
+use super::console::{Stopwatch, say};
+use crate::archipelago::Report;
+use crate::evolution::Problem;
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+
+/// Plain lines of one island are at least so far apart, in seconds, but for its last one.
+const LINE_EVERY_S: f64 = 5.0;
+
+/// Shows the progress of every island.
+pub struct Progress {
+    show: Show,
+    generations: u32,
+    tally: Vec<Tally>,
+}
+
+enum Show {
+    Bars(MultiProgress, Vec<ProgressBar>),
+    Lines,
+    Nothing,
+}
+
+/// What is known of an island.
+#[derive(Clone, Default)]
+struct Tally {
+    evaluations: u64,
+    best: Option<crate::evolution::Fitness>,
+    last_line: Option<Stopwatch>,
+}
+
+impl Progress {
+    /// Bars if standard error is a terminal.
+    pub fn new(config: &Config, quiet: bool) -> Self {
+        let show = if quiet {
+            Show::Nothing
+        } else if std::io::stderr().is_terminal() {
+            bars(config)
+        } else {
+            Show::Lines
+        };
+        let tally = vec![Tally::default(); config.islands as usize];
+        Self { show, generations: config.generations, tally }
+    }
+
+    /// Says something above the bars.
+    pub fn say(&self, line: &str) {
+        match &self.show {
+            Show::Bars(bars, _) => {
+                // A terminal that went away is no reason to fail.
+                let _ = bars.println(line);
+            }
+            Show::Lines => say(line),
+            Show::Nothing => {}
+        }
+    }
+
+    /// Shows a report, `seconds` after the start.
+    pub fn update<P: Problem>(&mut self, problem: &P, report: &Report, seconds: f64) {
+        let Some(tally) = self.tally.get_mut(report.island as usize) else { return };
+        tally.evaluations += report.effort.evaluations;
+        tally.best = tally.best.max(Some(report.statistics.best));
+        let best = tally.best.map_or_else(String::new, |best| problem.show(best));
+        let speed = tally.evaluations as f64 / seconds.max(1e-3);
+        let news = format!("best {best}  {speed:.1} evals/s");
+        match &self.show {
+            Show::Bars(_, bars) => {
+                let bar = &bars[report.island as usize];
+                bar.set_position(u64::from(report.generation));
+                bar.set_message(news);
+            }
+            Show::Lines => {
+                let rested = tally.last_line.is_none_or(|last| last.seconds() >= LINE_EVERY_S);
+                if rested || report.generation == self.generations {
+                    tally.last_line = Some(Stopwatch::start());
+                    let Report { island, generation, .. } = report;
+                    say(&format!(
+                        "island {island}  generation {generation}/{}  {news}",
+                        self.generations
+                    ));
+                }
+            }
+            Show::Nothing => {}
+        }
+    }
+
+    /// Leaves the bars as they are.
+    pub fn finish(&self) {
+        if let Show::Bars(_, bars) = &self.show {
+            bars.iter().for_each(ProgressBar::abandon);
+        }
+    }
+}
+
+fn bars(config: &Config) -> Show {
+    let style = ProgressStyle::with_template(
+        "{prefix:>10} {bar:30.cyan/blue} {pos:>4}/{len} {elapsed_precise}  {msg}",
+    )
+    .unwrap_or_else(|_| ProgressStyle::default_bar());
+    let all = MultiProgress::with_draw_target(ProgressDrawTarget::stderr());
+    let bars = (0..config.islands)
+        .map(|island| {
+            let bar = all.add(ProgressBar::new(u64::from(config.generations)));
+            bar.set_style(style.clone());
+            bar.set_prefix(format!("island {island}"));
+            bar
+        })
+        .collect();
+    Show::Bars(all, bars)
+}

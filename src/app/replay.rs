@@ -1,0 +1,60 @@
+//! `islands replay`: films genomes.
+
+use super::Failure;
+use super::cli::ReplayArgs;
+
+/// Films the genomes in the files that are named, side by side.
+///
+/// # Errors
+/// If one cannot be read or expressed, or the recording cannot be written.
+#[cfg(feature = "view")]
+pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
+    use super::console::print;
+    use super::genomes;
+    use crate::evolution::Problem;
+    use crate::view::{Clip, Pace, Recorder, RunCard};
+
+    let genomes: Vec<_> =
+        args.genomes.iter().map(|path| genomes::read(path)).collect::<Result<_, _>>()?;
+    let problem = args.trial.problem();
+    let trial = args.trial.task.trial();
+    let names: Vec<String> =
+        args.genomes.iter().map(|path| format!("- {}\n", path.display())).collect();
+    let card = RunCard {
+        islands: genomes.len() as u32,
+        unit: problem.unit().to_owned(),
+        description_markdown: format!("# A replay\n\n{}", names.concat()),
+        topology_edges: Vec::new(),
+        pace: Pace::for_run(0, trial.settle_s + trial.scored_s),
+    };
+    let mut films = Vec::new();
+    for (genome, path) in genomes.iter().zip(&args.genomes) {
+        let wrong = |error| Failure::usage(format!("cannot film {}: {error}", path.display()));
+        films.push(problem.film(genome).map_err(wrong)?);
+    }
+    let mut recorder = Recorder::create(&args.out, None, card)?;
+    for ((index, path), (evaluation, trajectory)) in (0..).zip(&args.genomes).zip(films) {
+        let score = problem.show(evaluation.fitness);
+        let name = path.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();
+        print(&format!("{score:>12}  {}  {}", evaluation.outcome, path.display()));
+        recorder.champion(&Clip {
+            island: index,
+            generation: 0,
+            label: format!("{name} · {score}"),
+            fitness: evaluation.fitness.saturated(),
+            trajectory,
+        })?;
+    }
+    recorder.finish()?;
+    print(&format!("view it:  rerun {}", args.out.display()));
+    Ok(())
+}
+
+/// Says that this program cannot.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "view"))]
+pub fn run(_: &ReplayArgs) -> Result<(), Failure> {
+    Err(Failure::usage("this program was built without the feature “view”, and cannot film"))
+}

@@ -1,0 +1,162 @@
+//! What came out of a run: gathered from what its islands wrote.
+
+use super::Failure;
+use super::config::Config;
+use crate::archipelago::{Digest, Island};
+use crate::creature::Gene;
+use crate::evolution::generation::Effort;
+use crate::evolution::{Fitness, Individual};
+use crate::formats::{genome_csv, metrics, urdf};
+use crate::problems::Locomotion;
+use crate::store::{RunDir, StoreError, atomic, checkpoint};
+use serde::Serialize;
+use std::fs::File;
+use std::path::PathBuf;
+
+/// The result of a run, as `summary.json` and `--json` say it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// The digest of all final populations: equal for equal seeds and settings.
+    pub digest: String,
+    /// The best fitness ever; the most negative number there is if nothing could be scored.
+    pub best_fitness: f64,
+    /// The file of its genome.
+    pub best_genome: PathBuf,
+    /// Its island.
+    pub best_island: u32,
+    /// The unit of fitness.
+    pub unit: String,
+    /// Number of islands.
+    pub islands: u32,
+    /// The seed.
+    pub seed: u64,
+    /// Generations after the random first one.
+    pub generations: u32,
+    /// Individuals on each island.
+    pub population: usize,
+    /// The task.
+    pub task: String,
+    /// The profile.
+    pub profile: String,
+    /// Evaluations that were really run.
+    pub evaluations: u64,
+    /// Offspring whose fitness was known already.
+    pub reused: u64,
+    /// Evaluations that did not end in a score.
+    pub failures: u64,
+    /// Evaluations a second, all islands together.
+    pub evaluations_per_second: f64,
+    /// How long the islands took, in seconds.
+    pub wall_seconds: f64,
+    /// The run's folder.
+    pub run_dir: PathBuf,
+    /// The film, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recording: Option<PathBuf>,
+    /// The program's version.
+    pub version: &'static str,
+}
+
+/// Gathers the result of a run whose islands have all finished: merges their metrics, hashes their final
+/// populations, and writes the champion and the summary.
+///
+/// # Errors
+/// If an island's files are missing or damaged, or ours cannot be written.
+pub fn gather(dir: &RunDir, config: &Config, wall_seconds: f64) -> Result<Summary, Failure> {
+    let islands: Vec<Island<Gene>> = (0..config.islands)
+        .map(|island| checkpoint::load(&dir.checkpoint(island, config.generations)))
+        .collect::<Result<_, _>>()?;
+    merge_metrics(dir, config.islands)?;
+    let best = islands
+        .iter()
+        .reduce(
+            |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
+        )
+        .expect("a run has at least one island");
+    write_champion(dir, &config.problem(), &best.champion)?;
+    let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
+    let summary = Summary {
+        digest: Digest::of(&islands).to_string(),
+        best_fitness: best.champion.fitness.saturated(),
+        best_genome: dir.champion_genome(),
+        best_island: best.index,
+        unit: "m".to_owned(),
+        islands: config.islands,
+        seed: config.seed.unwrap_or_default(),
+        generations: config.generations,
+        population: config.population,
+        task: config.task.to_string(),
+        profile: config.profile.to_string(),
+        evaluations: effort.evaluations,
+        reused: effort.reused,
+        failures: effort.failures(),
+        evaluations_per_second: effort.evaluations as f64 / wall_seconds.max(1e-9),
+        wall_seconds,
+        run_dir: dir.path().to_owned(),
+        recording: Some(dir.recording()).filter(|path| path.exists()),
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    atomic::write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
+    Ok(summary)
+}
+
+/// Writes a creature as the run's champion: its genome, and its body.
+///
+/// # Errors
+/// If the files cannot be written.
+pub fn write_champion(
+    dir: &RunDir,
+    problem: &Locomotion,
+    champion: &Individual<Gene>,
+) -> Result<(), Failure> {
+    atomic::write(&dir.champion_genome(), |out| genome_csv::write(&champion.genome, out))?;
+    // What cannot be expressed has no body to write, and was never scored.
+    let Ok(creature) = problem.express(&champion.genome) else { return Ok(()) };
+    atomic::write(&dir.champion_body(), |out| {
+        urdf::write(&creature.morphology, &creature.controller, "champion", out)
+    })?;
+    Ok(())
+}
+
+/// Keeps the best creature of a run on disk while the run goes on.
+#[derive(Debug)]
+pub struct Podium {
+    best: Fitness,
+}
+
+impl Podium {
+    /// A podium that nobody stands on.
+    pub fn new() -> Self {
+        Self { best: Fitness::WORST }
+    }
+
+    /// Writes `champion` if it is better than all before it.
+    ///
+    /// # Errors
+    /// If the files cannot be written.
+    pub fn receive(
+        &mut self,
+        dir: &RunDir,
+        problem: &Locomotion,
+        champion: &Individual<Gene>,
+    ) -> Result<(), Failure> {
+        if champion.fitness <= self.best {
+            return Ok(());
+        }
+        self.best = champion.fitness;
+        write_champion(dir, problem, champion)
+    }
+}
+
+/// The rows of all islands in one file, ordered by generation, then island.
+fn merge_metrics(dir: &RunDir, islands: u32) -> Result<(), Failure> {
+    let mut rows = Vec::new();
+    for island in 0..islands {
+        let path = dir.island_metrics(island);
+        let read = File::open(&path).and_then(metrics::read);
+        rows.extend(read.map_err(|source| StoreError::Io { action: "read", path, source })?);
+    }
+    rows.sort_by_key(|row| (row.generation, row.island));
+    atomic::write(&dir.metrics(), |out| metrics::write(&rows, true, out))?;
+    Ok(())
+}

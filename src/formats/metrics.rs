@@ -1,0 +1,104 @@
+//! The metrics of a run: a row an island and generation, as CSV.
+
+use crate::archipelago::Report;
+use crate::evolution::Fitness;
+use serde::{Deserialize, Serialize};
+use std::io::{Read, Write};
+
+/// A row. Scores are in the task's unit; a cell is empty where there is none, because nobody was scored.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// The island, from 0.
+    pub island: u32,
+    /// The generation, from 0.
+    pub generation: u32,
+    /// The best fitness of the population.
+    pub best: Option<f64>,
+    /// The mean over those that could be scored.
+    pub mean: Option<f64>,
+    /// The median of all.
+    pub median: Option<f64>,
+    /// The mean distance of two genomes, 0 to 1.
+    pub diversity: f64,
+    /// Evaluations that were run.
+    pub evaluations: u64,
+    /// Offspring whose fitness was known already.
+    pub reused: u64,
+    /// Evaluations that did not end in a score.
+    pub failures: u64,
+    /// Immigrants that arrived.
+    pub immigrants: u32,
+    /// How long the generation took, waiting included, in seconds. The only column that the seed does not fix.
+    pub seconds: f64,
+}
+
+impl Row {
+    /// The row of a report.
+    pub fn new(report: &Report, seconds: f64) -> Self {
+        let Report { island, generation, statistics, effort, immigrants } = *report;
+        Self {
+            island,
+            generation,
+            best: statistics.best.finite(),
+            mean: statistics.mean.finite(),
+            median: statistics.median.finite(),
+            diversity: statistics.diversity,
+            evaluations: effort.evaluations,
+            reused: effort.reused,
+            failures: effort.failures(),
+            immigrants,
+            seconds,
+        }
+    }
+
+    /// The best fitness of the row.
+    pub fn best_fitness(&self) -> Fitness {
+        self.best.map_or(Fitness::WORST, Fitness::new)
+    }
+}
+
+/// Writes rows as CSV, after a header if `with_header`.
+///
+/// # Errors
+/// If the output refuses.
+pub fn write(rows: &[Row], with_header: bool, output: impl Write) -> std::io::Result<()> {
+    let mut writer = csv::WriterBuilder::new().has_headers(with_header).from_writer(output);
+    rows.iter().try_for_each(|row| writer.serialize(row)).map_err(std::io::Error::other)?;
+    writer.flush()
+}
+
+/// Reads what [`write`] wrote, its header included.
+///
+/// # Errors
+/// If the input cannot be read or is something else.
+pub fn read(input: impl Read) -> std::io::Result<Vec<Row>> {
+    let rows = csv::Reader::from_reader(input).into_deserialize();
+    rows.collect::<Result<_, _>>().map_err(std::io::Error::other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_come_back_as_they_were_and_what_has_no_score_is_empty() {
+        let row = Row {
+            island: 1,
+            generation: 2,
+            best: Some(0.1 + 0.2),
+            mean: None,
+            median: None,
+            diversity: 0.5,
+            evaluations: 3,
+            reused: 1,
+            failures: 2,
+            immigrants: 0,
+            seconds: 0.25,
+        };
+        let mut bytes = Vec::new();
+        write(&[row, row], true, &mut bytes).expect("memory takes everything");
+        let text = String::from_utf8(bytes.clone()).expect("it is text");
+        assert!(text.contains("1,2,0.30000000000000004,,,0.5,3,1,2,0,0.25\n"), "{text}");
+        assert_eq!(read(bytes.as_slice()).expect("it is ours"), [row, row]);
+    }
+}
