@@ -52,8 +52,9 @@ impl Guard {
     }
 }
 
-/// Speed that a body may gain out of nothing in a trial, in m/s: of 1,000 random bodies half gained nothing, 99 %
-/// less than 0.008 and none more than 0.024.
+/// Speed that a body may gain out of nothing in a trial, in m/s. At 240 Hz 1,000 random bodies gained at most 0.024
+/// (99 % of them 0.008) and three evolved champions 0.035. Bodies that turn about another point than their centre of
+/// mass, the worst fault found so far, gained up to 23, every tenth body more than 0.6.
 const EXCESS_MAX_M_S: f64 = 0.1;
 
 /// The ledger of a body's momentum.
