@@ -75,18 +75,21 @@ pub enum Outcome {
     TooFast,
     /// The body left the ground by more than a jump explains.
     Launched,
+    /// The body gained more momentum than gravity and friction can give.
+    Unphysical,
     /// The evaluation panicked: a bug, contained.
     Panicked,
 }
 
 impl Outcome {
     /// Every outcome, in the order in which they are counted and printed.
-    pub const ALL: [Outcome; 6] = [
+    pub const ALL: [Outcome; 7] = [
         Outcome::Scored,
         Outcome::TooLarge,
         Outcome::NotFinite,
         Outcome::TooFast,
         Outcome::Launched,
+        Outcome::Unphysical,
         Outcome::Panicked,
     ];
 }
@@ -99,6 +102,7 @@ impl std::fmt::Display for Outcome {
             Outcome::NotFinite => "not finite",
             Outcome::TooFast => "too fast",
             Outcome::Launched => "launched",
+            Outcome::Unphysical => "momentum out of nothing",
             Outcome::Panicked => "panicked",
         })
     }

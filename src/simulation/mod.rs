@@ -22,7 +22,7 @@ use actuator::Actuators;
 use multibody::Body;
 use nalgebra::{Vector2, Vector3};
 use scene::Scene;
-use stability::Guard;
+use stability::{Guard, Ledger};
 
 /// What was measured in a trial that ran to its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,6 +86,7 @@ fn run(
     let mut root_first_m = body.root_position(&scene);
     let mut centre_first_m = body.centre_of_mass(&scene);
     let mut path = Path::from(centre_first_m);
+    let mut ledger = Ledger::new(trial, path_steps, centre_first_m);
     for step in 1..=steps {
         scene.step();
         guard.check_step(&scene)?;
@@ -95,6 +96,7 @@ fn run(
         if step == settle_steps {
             centre_first_m = body.centre_of_mass(&scene);
             path = Path::from(centre_first_m);
+            ledger = Ledger::new(trial, path_steps, centre_first_m);
         }
         let scored = step.checked_sub(settle_steps + 1);
         if scored.is_some_and(|scored| scored.is_multiple_of(control_steps)) {
@@ -102,7 +104,9 @@ fn run(
             actuators.update(&body, &mut scene);
         }
         if scored.is_some_and(|scored| (scored + 1).is_multiple_of(path_steps)) {
-            path.extend_to(body.centre_of_mass(&scene));
+            let centre_m = body.centre_of_mass(&scene);
+            path.extend_to(centre_m);
+            ledger.enter(centre_m)?;
         }
         observe(step, &View { body: &body, scene: &scene });
     }

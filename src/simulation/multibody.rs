@@ -5,7 +5,7 @@
 
 use super::scene::{Scene, Start, Trial};
 use super::trajectory::Pose;
-use crate::creature::{Creature, Joint, JointKind, Shape};
+use crate::creature::{Creature, Joint, JointKind, Morphology, Shape};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude as rapier;
 use std::f64::consts::FRAC_PI_2;
@@ -26,6 +26,12 @@ struct Place {
     rigid_body_from_link: Isometry3<f64>,
 }
 
+impl Place {
+    fn pose(&self, scene: &Scene) -> rapier::Pose {
+        scene.world.bodies[self.rigid_body].position() * to_rapier(&self.rigid_body_from_link)
+    }
+}
+
 impl Body {
     /// Puts a creature into a scene.
     pub fn build(scene: &mut Scene, creature: &Creature, trial: &Trial) -> Self {
@@ -41,7 +47,8 @@ impl Body {
         {
             let place = match &link.joint {
                 Some(Joint { parent, kind: JointKind::Fixed, .. }) => body.merged(*parent, link),
-                _ => body.separate(scene, lift * rest),
+                Some(_) => body.separate(scene, lift * rest, Isometry3::identity()),
+                None => body.separate(scene, lift * rest, from_root_centre(morphology)),
             };
             body.links.push(place);
             body.add_solid(scene, place, &link.shape, link.mass_kg);
@@ -60,8 +67,7 @@ impl Body {
     /// The pose of every link.
     pub fn poses(&self, scene: &Scene) -> Vec<Pose> {
         let pose = |place: &Place| {
-            let rigid_body = &scene.world.bodies[place.rigid_body];
-            let pose = rigid_body.position() * to_rapier(&place.rigid_body_from_link);
+            let pose = place.pose(scene);
             Pose {
                 position_m: pose.translation.to_array(),
                 rotation_xyzw: pose.rotation.normalize().to_array(),
@@ -70,9 +76,9 @@ impl Body {
         self.links.iter().map(pose).collect()
     }
 
-    /// The position of the root, in metres.
+    /// The position of the root link, in metres.
     pub fn root_position(&self, scene: &Scene) -> Vector3<f64> {
-        from_rapier(scene.world.bodies[self.rigid_bodies[0]].translation())
+        from_rapier(self.links[0].pose(scene).translation)
     }
 
     /// The centre of mass of the whole body, in metres.
@@ -95,12 +101,17 @@ impl Body {
         Place { rigid_body, rigid_body_from_link: rigid_body_from_parent * parent_from_link }
     }
 
-    fn separate(&mut self, scene: &mut Scene, world_from_link: Isometry3<f64>) -> Place {
-        let builder =
-            rapier::RigidBodyBuilder::dynamic().pose(to_rapier(&world_from_link)).can_sleep(false);
+    fn separate(
+        &mut self,
+        scene: &mut Scene,
+        world_from_link: Isometry3<f64>,
+        rigid_body_from_link: Isometry3<f64>,
+    ) -> Place {
+        let pose = to_rapier(&(world_from_link * rigid_body_from_link.inverse()));
+        let builder = rapier::RigidBodyBuilder::dynamic().pose(pose).can_sleep(false);
         let rigid_body = scene.world.insert_body(builder);
         self.rigid_bodies.push(rigid_body);
-        Place { rigid_body, rigid_body_from_link: Isometry3::identity() }
+        Place { rigid_body, rigid_body_from_link }
     }
 
     fn add_solid(&self, scene: &mut Scene, place: Place, shape: &Shape, mass_kg: f64) {
@@ -159,6 +170,28 @@ impl Body {
     }
 }
 
+/// The root link's frame in that of its rigid body, whose origin is the centre of mass of all that is fixed to
+/// the root. rapier moves a multibody's free root by the velocity of its centre of mass but turns it about its
+/// origin: with the two apart a body that turns travels by itself.
+fn from_root_centre(morphology: &Morphology) -> Isometry3<f64> {
+    let mut root_from_link: Vec<Option<Isometry3<f64>>> = Vec::new();
+    let (mut moment, mut mass_kg) = (Vector3::zeros(), 0.0);
+    for link in &morphology.links {
+        let pose = match &link.joint {
+            None => Some(Isometry3::identity()),
+            Some(joint) if joint.kind == JointKind::Fixed => root_from_link[joint.parent]
+                .map(|parent| parent * joint.parent_from_joint * joint.joint_from_link),
+            Some(_) => None,
+        };
+        if let Some(pose) = pose {
+            moment += link.mass_kg * pose.translation.vector;
+            mass_kg += link.mass_kg;
+        }
+        root_from_link.push(pose);
+    }
+    nalgebra::Translation3::from(-moment / mass_kg).into()
+}
+
 fn to_rapier(pose: &Isometry3<f64>) -> rapier::Pose {
     let t = pose.translation.vector;
     let r = pose.rotation.coords;
@@ -170,4 +203,34 @@ fn to_rapier(pose: &Isometry3<f64>) -> rapier::Pose {
 
 fn from_rapier(vector: rapier::Vector) -> Vector3<f64> {
     Vector3::new(f64::from(vector.x), f64::from(vector.y), f64::from(vector.z))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::creature::gene::PARAMETER_COUNT;
+    use crate::creature::{Gene, Profile, express};
+    use crate::simulation::simulate;
+
+    #[test]
+    fn nothing_that_a_body_does_in_empty_space_moves_its_centre_of_mass() {
+        let (root, mut fixed, mut limb) = (
+            Gene([0.5; PARAMETER_COUNT]),
+            Gene([0.7; PARAMETER_COUNT]),
+            Gene([0.3; PARAMETER_COUNT]),
+        );
+        (fixed.0[5], fixed.0[6]) = (0.9, 0.0);
+        (limb.0[5], limb.0[6], limb.0[15]) = (0.1, 0.0, 0.9);
+        let creature = express(&[root, fixed, limb], Profile::Native, 8).unwrap();
+        let trial = Trial {
+            steps_per_s: 240,
+            gravity_m_s2: 0.0,
+            start: Start::RootAt(10.0),
+            settle_s: 0.0,
+            scored_s: 4.0,
+        };
+        let measured = simulate(&creature, &trial).unwrap();
+        assert!((measured.root_last_m - measured.root_first_m).norm() > 0.01, "{measured:?}");
+        assert!((measured.centre_last_m - measured.centre_first_m).norm() < 0.01, "{measured:?}");
+    }
 }

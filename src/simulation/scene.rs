@@ -48,7 +48,7 @@ impl Trial {
 }
 
 /// Friction of the ground and of every link; their product acts between them. From the course.
-const FRICTION: f32 = 0.5;
+pub(super) const FRICTION: f32 = 0.5;
 
 /// The ground belongs to this group and touches the creature; links of one creature never touch each other,
 /// since most overlap their neighbours at birth.
