@@ -66,7 +66,7 @@ pub struct RunArgs {
     /// How genes are read: native, lecture or coursework [default: native]
     #[arg(long)]
     pub profile: Option<Profile>,
-    /// Genes of a random genome [default: 3]
+    /// Genes of a random genome [default: 4]
     #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
     pub genes: Option<usize>,
     /// No genome gets longer than this [default: 12]

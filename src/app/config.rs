@@ -90,7 +90,7 @@ impl Default for Config {
             population: 24,
             task: Task::Walk,
             profile: Profile::Native,
-            genes: 3,
+            genes: 4,
             max_genes: 12,
             max_links: 32,
             selection: Selection::Tournament { size: 3 },

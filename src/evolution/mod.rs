@@ -20,7 +20,7 @@ pub mod variation;
 pub use fitness::{Evaluation, Fitness, Outcome};
 pub use generation::Strategy;
 pub use individual::{Id, Individual};
-pub use population::{Population, Statistics};
+pub use population::{Population, Spread, Statistics};
 pub use problem::{Gene, Problem};
 pub use selection::Selection;
 pub use variation::Variation;

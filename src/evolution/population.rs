@@ -31,6 +31,37 @@ pub struct Statistics {
     pub median: Fitness,
     /// The mean distance of two individuals, from 0 (all equal) to 1.
     pub diversity: f64,
+    /// How the scores are spread.
+    pub spread: Spread,
+}
+
+/// A histogram of the scores of a population; failures are in none of its bars.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Spread {
+    /// Where the first bar begins: the smallest score.
+    pub low: f64,
+    /// Where the last bar ends: the largest score.
+    pub high: f64,
+    /// How many scores lie in each of so many equal parts of that range.
+    pub counts: [u32; SPREAD_BARS],
+}
+
+/// Bars of a [`Spread`].
+pub const SPREAD_BARS: usize = 16;
+
+impl Spread {
+    /// Counts scores, which must be finite.
+    pub fn of(scores: &[f64]) -> Self {
+        let low = scores.iter().copied().reduce(f64::min).unwrap_or(0.0);
+        let high = scores.iter().copied().reduce(f64::max).unwrap_or(0.0);
+        let mut counts = [0; SPREAD_BARS];
+        for score in scores {
+            // Equal scores divide zero by zero, and are all in the first bar.
+            let bar = ((score - low) / (high - low) * SPREAD_BARS as f64) as usize;
+            counts[bar.min(SPREAD_BARS - 1)] += 1;
+        }
+        Self { low, high, counts }
+    }
 }
 
 impl Statistics {
@@ -38,20 +69,21 @@ impl Statistics {
     pub fn of<P: Problem>(problem: &P, population: &[Individual<P::Gene>]) -> Self {
         let mut fitness: Vec<Fitness> = population.iter().map(|i| i.fitness).collect();
         fitness.sort_unstable();
+        let scores: Vec<f64> = fitness.iter().filter_map(|f| f.finite()).collect();
         let at = |i: usize| fitness.get(i).copied().unwrap_or(Fitness::WORST);
         Self {
             best: at(fitness.len().saturating_sub(1)),
-            mean: mean(fitness.iter().filter_map(|f| f.finite())),
+            mean: mean(&scores),
             median: at(fitness.len() / 2),
             diversity: diversity(problem, population),
+            spread: Spread::of(&scores),
         }
     }
 }
 
-fn mean(values: impl Iterator<Item = f64>) -> Fitness {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    // No value at all divides zero by zero, which Fitness::new turns into WORST.
-    Fitness::new(sum / count)
+fn mean(scores: &[f64]) -> Fitness {
+    // No score at all divides zero by zero, which Fitness::new turns into WORST.
+    Fitness::new(scores.iter().sum::<f64>() / scores.len() as f64)
 }
 
 fn diversity<P: Problem>(problem: &P, population: &[Individual<P::Gene>]) -> f64 {
@@ -64,4 +96,24 @@ fn diversity<P: Problem>(problem: &P, population: &[Individual<P::Gene>]) -> f64
         }
     }
     if pairs > 0.0 { sum / pairs } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_score_is_in_one_bar_of_the_spread() {
+        let spread = Spread::of(&[0.0, 0.0, 1.0, 16.0]);
+        assert_eq!((spread.low, spread.high), (0.0, 16.0));
+        assert_eq!((spread.counts[0], spread.counts[1], spread.counts[15]), (2, 1, 1));
+        assert_eq!(Spread::of(&[3.0; 5]).counts[0], 5);
+        assert_eq!(Spread::of(&[]).counts, [0; SPREAD_BARS]);
+    }
+
+    #[test]
+    fn means_are_over_those_that_were_scored() {
+        assert_eq!(mean(&[1.0, 2.0]), Fitness::new(1.5));
+        assert_eq!(mean(&[]), Fitness::WORST);
+    }
 }

@@ -7,7 +7,7 @@ use super::wire::{BatchHeader, IndividualHeader, NOBODY, ReportHeader, ResendReq
 use crate::archipelago::migration::MIGRANTS_MAX;
 use crate::archipelago::{Archipelago, Outbox, Report};
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Gene, Id, Individual, Statistics};
+use crate::evolution::{Fitness, Gene, Id, Individual, Spread, Statistics};
 
 /// Why something received was not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -125,6 +125,9 @@ impl Limits {
             mean: statistics.mean.get(),
             median: statistics.median.get(),
             diversity: statistics.diversity,
+            spread_low: statistics.spread.low,
+            spread_high: statistics.spread.high,
+            spread_counts: statistics.spread.counts,
             seconds,
             evaluations: effort.evaluations,
             reused: effort.reused,
@@ -220,8 +223,11 @@ fn fitness(score: f64) -> Result<Fitness, Rejection> {
 }
 
 fn statistics(header: &ReportHeader) -> Result<Statistics, Rejection> {
+    let ReportHeader { spread_low: low, spread_high: high, spread_counts: counts, .. } = *header;
     require(header.diversity.is_finite(), Rejection::Number)?;
+    require(low.is_finite() && high.is_finite() && low <= high, Rejection::Number)?;
     Ok(Statistics {
+        spread: Spread { low, high, counts },
         best: fitness(header.best)?,
         mean: fitness(header.mean)?,
         median: fitness(header.median)?,

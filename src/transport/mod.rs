@@ -46,6 +46,7 @@ mod lookout;
 mod ports;
 mod services;
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "a test may give up after a while")]
 mod tests;
 pub mod wire;
 

@@ -5,6 +5,7 @@
 #![allow(unsafe_code, reason = "ZeroCopySend, implemented or derived, is an unsafe trait")]
 
 use crate::archipelago::migration::MIGRANTS_MAX;
+use crate::evolution::population::SPREAD_BARS;
 use crate::evolution::{Gene, Outcome};
 use iceoryx2::prelude::ZeroCopySend;
 use std::mem::size_of;
@@ -84,6 +85,12 @@ pub struct ReportHeader {
     pub median: f64,
     /// The diversity.
     pub diversity: f64,
+    /// The smallest score.
+    pub spread_low: f64,
+    /// The largest score.
+    pub spread_high: f64,
+    /// How many scores lie in each part of the range between them.
+    pub spread_counts: [u32; SPREAD_BARS],
     /// Wall seconds that the generation took.
     pub seconds: f64,
     /// Evaluations that were run.
@@ -110,5 +117,5 @@ pub struct ResendRequest {
 // A changed size is a changed layout: give the type a new name, and only then change the number.
 const _: () = assert!(size_of::<IndividualHeader>() == 48);
 const _: () = assert!(size_of::<BatchHeader>() == 24 + 48 * MIGRANTS_MAX);
-const _: () = assert!(size_of::<ReportHeader>() == 24 + 48 + 7 * 8 + 6 * 8);
+const _: () = assert!(size_of::<ReportHeader>() == 24 + 48 + 9 * 8 + 16 * 4 + 7 * 8);
 const _: () = assert!(size_of::<ResendRequest>() == 16);

@@ -56,7 +56,7 @@ pub fn reach(shapes: &[Shape], poses: &[Pose], from: [f32; 3]) -> f32 {
 
 fn half_diagonal(shape: &Shape) -> f32 {
     let half = match *shape {
-        Shape::Cylinder { radius_m, length_m } => radius_m.hypot(length_m / 2.0),
+        Shape::Cylinder { radius_m, length_m } => libm::hypot(radius_m, length_m / 2.0),
         Shape::Cuboid { half_extents_m } => half_extents_m.norm(),
     };
     half as f32

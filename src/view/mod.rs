@@ -38,6 +38,7 @@ pub mod recorder;
 pub mod scenery;
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "a walker of the tests decides no result")]
 mod tests;
 
 pub use clip::Clip;

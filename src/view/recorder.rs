@@ -4,6 +4,8 @@ use super::blueprint::{self, Audience};
 use super::film::{Film, Pace};
 use super::{Clip, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
 use crate::archipelago::island::Report;
+use crate::evolution::Spread;
+use crate::evolution::population::SPREAD_BARS;
 use rerun::grpc_server::GrpcServerSink;
 use rerun::sink::{FileSink, LogSink};
 use rerun::{
@@ -44,12 +46,12 @@ impl Default for Live {
     }
 }
 
+/// A bar of a histogram is at least so wide, in the unit of fitness: equal scores need a bar too.
+const BAR_WIDTH_MIN: f64 = 1e-6;
 /// How many ports are tried.
 const PORTS: u16 = 32;
 /// The name of all runs' blueprints: a viewer keeps the user's own arrangement under it.
 const APPLICATION: &str = "islands";
-/// The bars of a histogram.
-const BARS: usize = 16;
 
 /// Writes a run's recording.
 pub struct Recorder {
@@ -107,6 +109,7 @@ impl Recorder {
                 self.stream.log(format!("{metric}/{island}"), &Scalars::single(value))?;
             }
         }
+        self.stream.log(format!("population/{island}"), &histogram(island, &statistics.spread))?;
         self.roll(island)
     }
 
@@ -128,22 +131,6 @@ impl Recorder {
         let color = island.map_or(palette::MARKS, palette::island);
         let line = TextLog::new(text).with_level("INFO").with_color(palette::opaque(color));
         Ok(self.stream.log("events", &line)?)
-    }
-
-    /// How the fitness of an island's population is spread in a generation; what is not finite is left out.
-    pub fn histogram(
-        &mut self,
-        island: u32,
-        generation: u32,
-        fitness: &[f64],
-    ) -> Result<(), ViewError> {
-        self.stamp(generation);
-        let Bars { middles, counts, width } = Bars::of(fitness);
-        let chart = BarChart::new(counts)
-            .with_abscissa(middles)
-            .with_widths([width as f32; BARS])
-            .with_color(palette::opaque(palette::island(island)));
-        Ok(self.stream.log(format!("population/{island}"), &chart)?)
     }
 
     /// Waits until everything is written. Only here a full disk is noticed: call it now and then.
@@ -193,26 +180,11 @@ fn serve(live: Live) -> Result<GrpcServerSink, ViewError> {
     Ok(GrpcServerSink::new(&address, port, options).expect("an address of this machine"))
 }
 
-/// How often values lie in each of [`BARS`] equal parts of their range.
-struct Bars {
-    middles: Vec<f64>,
-    counts: Vec<f64>,
-    width: f64,
-}
-
-impl Bars {
-    /// Counts the finite ones of `values`.
-    fn of(values: &[f64]) -> Self {
-        let finite = || values.iter().copied().filter(|value| value.is_finite());
-        let low = finite().reduce(f64::min).unwrap_or(0.0);
-        let high = finite().reduce(f64::max).unwrap_or(1.0);
-        // Equal values need a bar too.
-        let width = ((high - low) / BARS as f64).max(1e-6);
-        let mut counts = vec![0.0; BARS];
-        for value in finite() {
-            counts[(((value - low) / width) as usize).min(BARS - 1)] += 1.0;
-        }
-        let middles = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
-        Self { middles, counts, width }
-    }
+fn histogram(island: u32, spread: &Spread) -> BarChart {
+    let width = ((spread.high - spread.low) / SPREAD_BARS as f64).max(BAR_WIDTH_MIN);
+    let middles = (0..SPREAD_BARS).map(|bar| spread.low + (bar as f64 + 0.5) * width);
+    BarChart::new(spread.counts.map(f64::from).to_vec())
+        .with_abscissa(middles.collect::<Vec<_>>())
+        .with_widths([width as f32; SPREAD_BARS])
+        .with_color(palette::opaque(palette::island(island)))
 }

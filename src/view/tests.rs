@@ -4,7 +4,7 @@ use super::*;
 use crate::archipelago::island::Report;
 use crate::creature::morphology::Shape;
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Statistics};
+use crate::evolution::{Fitness, Spread, Statistics};
 use crate::simulation::trajectory::{Pose, Trajectory};
 use nalgebra::{UnitQuaternion, Vector3};
 use re_log_encoding::DecoderApp;
@@ -165,8 +165,6 @@ fn demo() {
                 recorder.event(Some(island), generation, &text).unwrap();
             }
             recorder.report(&report(island, generation)).unwrap();
-            let spread = (0..100).map(|i| speed * 8.0 * (1.0 + (f64::from(i) * 0.7).sin().powi(3)));
-            recorder.histogram(island, generation, &spread.collect::<Vec<_>>()).unwrap();
         }
     }
     recorder.event(None, 30, "run finished").unwrap();
@@ -197,6 +195,7 @@ fn report(island: u32, generation: u32) -> Report {
         mean,
         median: mean,
         diversity: 1.0 / (1.0 + g * (1.0 + 0.2 * f64::from(island)) / 10.0),
+        spread: Spread::of(&(0..50).map(|i| f64::from(i * i) / 1000.0).collect::<Vec<_>>()),
     };
     Report { island, generation, statistics, effort: Effort::default(), immigrants: 0 }
 }

@@ -1,12 +1,16 @@
 //! Real services, each test in a domain of its own.
 
+mod lives;
+
 use super::ports;
 use super::services::{self, Plan};
 use super::wire::{BatchHeader, NOBODY, ReportHeader, ResendRequest, WireGene};
 use super::*;
 use crate::archipelago::{Archipelago, Inbox, Migration, Outbox, Report, Topology};
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Gene, Id, Individual, Selection, Statistics, Strategy, Variation};
+use crate::evolution::{
+    Fitness, Gene, Id, Individual, Selection, Spread, Statistics, Strategy, Variation,
+};
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -84,8 +88,14 @@ fn report(island: u32, generation: u32) -> Report {
     Report {
         island,
         generation,
-        statistics: Statistics { best, mean, median, diversity: 0.25 },
-        effort: Effort { evaluations: 9, reused: 2, outcomes: [4, 1, 1, 1, 1, 1] },
+        statistics: Statistics {
+            best,
+            mean,
+            median,
+            diversity: 0.25,
+            spread: Spread::of(&[1.5, 3.0]),
+        },
+        effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1] },
         immigrants: 2,
     }
 }
@@ -253,7 +263,7 @@ fn every_malformed_report_is_rejected() {
     assert_eq!(spoilt(ReportHeader { best: f64::NAN, ..header }), Rejection::Number);
     assert_eq!(spoilt(ReportHeader { diversity: f64::NAN, ..header }), Rejection::Number);
     assert_eq!(spoilt(ReportHeader { evaluations: 8, ..header }), Rejection::Number);
-    assert_eq!(spoilt(ReportHeader { outcomes: [u64::MAX; 6], ..header }), Rejection::Number);
+    assert_eq!(spoilt(ReportHeader { outcomes: [u64::MAX; 7], ..header }), Rejection::Number);
 }
 
 #[test]
@@ -346,110 +356,4 @@ fn an_end_can_be_lent_to_another_thread() {
     sendable::<Exchange<TestGene>>();
     sendable::<Lookout<TestGene>>();
     sendable::<Harbour<TestGene>>();
-}
-
-const CHILD: &str = "ISLANDS_TEST_CHILD";
-
-/// Not a test but a process of the next one, which starts it by this name.
-#[test]
-fn child() {
-    let Ok(run_id) = std::env::var(CHILD) else { return };
-    let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), 0).unwrap();
-    for epoch in 0.. {
-        exchange.publish(&outbox(0, epoch)).unwrap();
-        exchange.receive();
-        exchange.wait(TICK).unwrap();
-    }
-}
-
-#[test]
-fn an_island_that_is_killed_can_be_born_again_and_again() {
-    let (domain, archipelago, harbour) = launch(14, 2);
-    let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
-    for life in 0..6 {
-        let mut command = Command::new(std::env::current_exe().unwrap());
-        command.args(["transport::tests::child", "--exact"]).stdout(Stdio::null());
-        let mut child = command.env(CHILD, domain.to_string()).spawn().unwrap();
-        let deadline = Instant::now() + Duration::from_secs(60);
-        // Epoch 2 needs a neighbour that sees ports that were opened after its own.
-        while !epochs(exchange.receive()).contains(&2) {
-            assert!(Instant::now() < deadline, "nothing came in life {life}");
-            exchange.publish(&outbox(1, life)).unwrap();
-            exchange.wait(TICK).unwrap();
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
-        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
-    }
-    drop(exchange);
-    harbour.close().unwrap();
-    assert_eq!(remains(&domain), [""; 0]);
-}
-
-/// An island that does nothing but exchange, as the real one does it.
-fn sail(
-    domain: &Domain,
-    archipelago: &Archipelago,
-    island: u32,
-    ends: u32,
-    loses: u32,
-) -> Vec<u32> {
-    let exchange = Exchange::<TestGene>::open(domain, archipelago, island).unwrap();
-    let mut inbox = Inbox::new(archipelago.in_neighbours(island), 0);
-    let mut taken = Vec::new();
-    let mut published = 0;
-    let mut quiet = 0;
-    while taken.len() < ends as usize {
-        let epoch = taken.len() as u32;
-        // It may be two epochs ahead of what it has taken in.
-        if published < ends.min(epoch + 2) {
-            if published % loses != loses - 1 {
-                exchange.publish(&outbox(island, published)).unwrap();
-            }
-            published += 1;
-        }
-        for outbox in exchange.receive().outboxes {
-            inbox.accept(outbox);
-        }
-        if let Some(outboxes) = inbox.take(epoch) {
-            let sources = archipelago.in_neighbours(island).into_iter();
-            assert_eq!(outboxes, sources.map(|i| outbox(i, epoch)).collect::<Vec<_>>());
-            taken.push(epoch);
-            quiet = 0;
-            continue;
-        }
-        quiet += 1;
-        if quiet % 4 == 0 {
-            inbox.missing(epoch).into_iter().for_each(|source| exchange.request(source, epoch));
-        }
-        answer(&exchange, island, published);
-        exchange.wait(TICK).unwrap();
-    }
-    // Finished, but others may still need what it sent.
-    for _ in 0..100 {
-        answer(&exchange, island, published);
-        exchange.wait(TICK).unwrap();
-    }
-    taken
-}
-
-fn answer(exchange: &Exchange<TestGene>, island: u32, published: u32) {
-    for epoch in exchange.requests().map_or(0..0, |epoch| epoch..published) {
-        exchange.publish(&outbox(island, epoch)).unwrap();
-    }
-}
-
-#[test]
-fn every_epoch_is_taken_exactly_once_though_every_seventh_outbox_is_lost() {
-    let (domain, archipelago, _harbour) = launch(13, 3);
-    let expected: Vec<u32> = (0..200).collect();
-    std::thread::scope(|scope| {
-        let sail = |island| {
-            let (domain, archipelago) = (&domain, &archipelago);
-            scope.spawn(move || sail(domain, archipelago, island, 200, 7))
-        };
-        for island in [0, 1, 2].map(sail) {
-            assert_eq!(island.join().unwrap(), expected);
-        }
-    });
 }

@@ -1,0 +1,109 @@
+//! Islands that die and are born again, and channels that lose.
+
+use super::*;
+
+const CHILD: &str = "ISLANDS_TEST_CHILD";
+
+/// Not a test but a process of the next one, which starts it by this name.
+#[test]
+fn child() {
+    let Ok(run_id) = std::env::var(CHILD) else { return };
+    let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), 0).unwrap();
+    for epoch in 0.. {
+        exchange.publish(&outbox(0, epoch)).unwrap();
+        exchange.receive();
+        exchange.wait(TICK).unwrap();
+    }
+}
+
+#[test]
+fn an_island_that_is_killed_can_be_born_again_and_again() {
+    let (domain, archipelago, harbour) = launch(14, 2);
+    let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
+    for life in 0..6 {
+        let mut command = Command::new(std::env::current_exe().unwrap());
+        command.args(["transport::tests::lives::child", "--exact"]).stdout(Stdio::null());
+        let mut child = command.env(CHILD, domain.to_string()).spawn().unwrap();
+        let deadline = Instant::now() + Duration::from_secs(60);
+        // Epoch 2 needs a neighbour that sees ports that were opened after its own.
+        while !epochs(exchange.receive()).contains(&2) {
+            assert!(Instant::now() < deadline, "nothing came in life {life}");
+            exchange.publish(&outbox(1, life)).unwrap();
+            exchange.wait(TICK).unwrap();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
+    }
+    drop(exchange);
+    harbour.close().unwrap();
+    assert_eq!(remains(&domain), [""; 0]);
+}
+
+/// An island that does nothing but exchange, as the real one does it.
+fn sail(
+    domain: &Domain,
+    archipelago: &Archipelago,
+    island: u32,
+    ends: u32,
+    loses: u32,
+) -> Vec<u32> {
+    let exchange = Exchange::<TestGene>::open(domain, archipelago, island).unwrap();
+    let mut inbox = Inbox::new(archipelago.in_neighbours(island), 0);
+    let mut taken = Vec::new();
+    let mut published = 0;
+    let mut quiet = 0;
+    while taken.len() < ends as usize {
+        let epoch = taken.len() as u32;
+        // It may be two epochs ahead of what it has taken in.
+        if published < ends.min(epoch + 2) {
+            if published % loses != loses - 1 {
+                exchange.publish(&outbox(island, published)).unwrap();
+            }
+            published += 1;
+        }
+        for outbox in exchange.receive().outboxes {
+            inbox.accept(outbox);
+        }
+        if let Some(outboxes) = inbox.take(epoch) {
+            let sources = archipelago.in_neighbours(island).into_iter();
+            assert_eq!(outboxes, sources.map(|i| outbox(i, epoch)).collect::<Vec<_>>());
+            taken.push(epoch);
+            quiet = 0;
+            continue;
+        }
+        quiet += 1;
+        if quiet % 4 == 0 {
+            inbox.missing(epoch).into_iter().for_each(|source| exchange.request(source, epoch));
+        }
+        answer(&exchange, island, published);
+        exchange.wait(TICK).unwrap();
+    }
+    // Finished, but others may still need what it sent.
+    for _ in 0..100 {
+        answer(&exchange, island, published);
+        exchange.wait(TICK).unwrap();
+    }
+    taken
+}
+
+fn answer(exchange: &Exchange<TestGene>, island: u32, published: u32) {
+    for epoch in exchange.requests().map_or(0..0, |epoch| epoch..published) {
+        exchange.publish(&outbox(island, epoch)).unwrap();
+    }
+}
+
+#[test]
+fn every_epoch_is_taken_exactly_once_though_every_seventh_outbox_is_lost() {
+    let (domain, archipelago, _harbour) = launch(13, 3);
+    let expected: Vec<u32> = (0..200).collect();
+    std::thread::scope(|scope| {
+        let sail = |island| {
+            let (domain, archipelago) = (&domain, &archipelago);
+            scope.spawn(move || sail(domain, archipelago, island, 200, 7))
+        };
+        for island in [0, 1, 2].map(sail) {
+            assert_eq!(island.join().unwrap(), expected);
+        }
+    });
+}
