@@ -3,7 +3,7 @@
 use super::cli::RunArgs;
 use super::config::Config;
 use super::console::{Stopwatch, print, say};
-use super::kinship::{Ear, Kin};
+use super::kinship::{Ear, FINISHED, Kin, SERVING};
 use super::progress::Progress;
 use super::result::{self, Podium, Summary};
 use super::{Failure, config};
@@ -16,11 +16,6 @@ use rand::TryRng;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
-
-/// What an island tells its launcher when it has evolved all its generations.
-pub const FINISHED: &str = "finished";
-/// What the monitor tells its launcher, before the address that serves the view.
-pub const SERVING: &str = "serving ";
 
 /// The launcher looks about so often.
 const LOOK: Duration = Duration::from_millis(20);
