@@ -144,6 +144,7 @@ impl Run {
                     self.dir.path().display()
                 )));
             }
+            self.miss_monitor();
             for island in &mut self.islands {
                 if let Some(status) = island.ended() {
                     return Err(Failure::failed(format!(
@@ -157,6 +158,14 @@ impl Run {
         }
         self.wall_seconds = self.watch.seconds();
         Ok(())
+    }
+
+    /// A run goes on without its monitor, but not without a word.
+    fn miss_monitor(&mut self) {
+        if let Some(status) = self.monitor.as_mut().and_then(Kin::ended) {
+            self.monitor = None;
+            say(&format!("warning: the monitor ended ({status}); the run goes on without a film"));
+        }
     }
 
     /// Takes in what islands and monitor report, for a moment.
