@@ -1,5 +1,6 @@
 //! The promises of the crate, a module a subject.
 
+mod cli;
 mod course;
 mod determinism;
 mod run;

@@ -89,6 +89,23 @@ impl World {
         run["digest"].as_str().unwrap().to_owned()
     }
 
+    /// Runs the program with what it must refuse, and returns the sentence that it refuses it with.
+    pub fn refusal(&self, arguments: &str) -> String {
+        let [files, others] = [BTreeSet::from_iter(self.files()), runs_in_shared_memory()];
+        let ending = self.islands(arguments);
+        assert_eq!(ending.code, Some(2), "islands {arguments}: {ending:?}");
+        assert_eq!(ending.stdout, "");
+        assert_eq!(BTreeSet::from_iter(self.files()), files, "islands {arguments}");
+        self.assert_left_nothing();
+        // Runs of other tests come to their end; what this one left would stay.
+        let new: BTreeSet<_> = runs_in_shared_memory().difference(&others).cloned().collect();
+        until("nothing is left in shared memory", || runs_in_shared_memory().is_disjoint(&new));
+        let hint = "\n\nFor more information, try '--help'.\n";
+        let sentence = ending.stderr.strip_suffix(hint).unwrap_or(&ending.stderr).trim_end();
+        assert!(!sentence.contains('\n'), "islands {arguments}: {sentence}");
+        sentence.strip_prefix("error: ").unwrap().to_owned()
+    }
+
     /// Starts the program and goes on.
     pub fn start(&self, arguments: &str) -> Running {
         let mut command = self.command(arguments);
@@ -207,6 +224,29 @@ pub fn runs_in_shared_memory() -> BTreeSet<String> {
 pub fn run_id(config: &str) -> String {
     let config: toml::Table = config.parse().unwrap();
     config["launch"]["run-id"].as_str().unwrap().to_owned()
+}
+
+/// Asserts that two JSON values are the same, numbers to the last bit, whether written as 1 or 1.0.
+pub fn assert_same(found: &Value, expected: &Value, place: &str) {
+    match (found, expected) {
+        (Value::Object(found), Value::Object(expected)) => {
+            assert!(found.keys().eq(expected.keys()), "{place}: {found:?}, not {expected:?}");
+            for (key, value) in expected {
+                assert_same(&found[key], value, &format!("{place}.{key}"));
+            }
+        }
+        (Value::Array(found), Value::Array(expected)) => {
+            assert_eq!(found.len(), expected.len(), "{place}");
+            for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+                assert_same(found, expected, &format!("{place}[{i}]"));
+            }
+        }
+        (Value::Number(_), Value::Number(_)) => {
+            let (found, expected) = (found.as_f64().unwrap(), expected.as_f64().unwrap());
+            assert_eq!(found.to_bits(), expected.to_bits(), "{place}: {found}, not {expected}");
+        }
+        _ => assert_eq!(found, expected, "{place}"),
+    }
 }
 
 /// The processes that a process has started.

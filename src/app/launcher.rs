@@ -50,7 +50,8 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let ear = Ear::to_signals()?;
     let harbour = Harbour::<Gene>::create(&domain, &config.archipelago())?;
     let dir = run_dir(args.out.as_deref(), &config);
-    dir.create(config.islands).map_err(|error| Failure::usage(error.to_string()))?;
+    let elsewhere = |error| Failure::usage(format!("{error}; choose another folder with --out"));
+    dir.create(config.islands).map_err(elsewhere)?;
     atomic::write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
 
     let mut run = Run::start(args, config, dir, &domain, ear)?;
