@@ -3,6 +3,9 @@
 mod cli;
 mod course;
 mod determinism;
+mod physics;
+#[cfg(feature = "view")]
+mod recording;
 mod run;
 mod support;
 mod tidy;
