@@ -1,4 +1,53 @@
 //! An island-model genetic algorithm that evolves virtual creatures.
+//!
+//! Several island processes each evolve a population of creatures, simulate them in a physics engine, and
+//! exchange their best through shared memory. A run is a function of its seed: the same seed gives the
+//! same final populations to the last bit, whatever the number of threads, the scheduling or the build.
+//!
+//! # A tour, by floors
+//!
+//! A module imports only from floors below its own; a test reads the sources and makes sure.
+//!
+//! | floor | module | what it is |
+//! |---|---|---|
+//! | 0 | [`rng`] | an address (seed, island, generation, index, purpose) becomes a stream of random numbers |
+//! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
+//! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
+//! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
+//! |   | [`simulation`] | bodies tried in rapier |
+//! | 3 | [`problems`] | what can be evolved: creatures that move |
+//! | 4 | [`transport`] | exchange between processes through iceoryx2 |
+//! |   | [`store`] | what a run leaves on disk |
+//! |   | [`formats`] | files for people and other programs |
+//! |   | `view` | the run as a film in Rerun (feature `view`) |
+//! | 5 | [`app`] | the program |
+//!
+//! Start with [`archipelago::island::step`], one generation of one island as a list of phases, and
+//! [`archipelago::lockstep`], a whole run in twenty lines.
+//!
+//! # Invariants
+//!
+//! - **Randomness has an address.** No generator state is stored or shared, so no order of execution matters.
+//! - **Evaluation is a pure function of the genome.** An elite, a duplicate and an immigrant are not
+//!   simulated again, and whoever simulates a champion gets its fitness bit for bit.
+//! - **Floors 0 to 3 touch no clock, file or process**, and all transcendental functions on the way to a
+//!   fitness are libm's.
+//! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`] and the worst fitness.
+//! - **Each heavy dependency has one importer**: rapier3d `simulation`, iceoryx2 `transport`, bincode `store`,
+//!   rerun `view`, clap `app`.
+//!
+//! # A run in one process
+//!
+//! ```
+//! use islands::app::config::Config;
+//! use islands::archipelago::{Digest, lockstep};
+//!
+//! let config = Config { islands: 2, population: 3, elites: 1, genes: 2, seed: Some(7), ..Config::default() };
+//! let islands = lockstep::run(&config.problem(), &config.archipelago(), 1, |step| {
+//!     println!("island {} has walked {:?}", step.report.island, step.report.statistics.best);
+//! });
+//! println!("{}", Digest::of(&islands));
+//! ```
 
 pub mod rng;
 

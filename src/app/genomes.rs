@@ -17,7 +17,9 @@ pub fn read(path: &Path) -> Result<Vec<Gene>, Failure> {
     let wrong = |error: &dyn std::fmt::Display| {
         Failure::usage(format!("cannot use {}: {error}", path.display()))
     };
-    let file = File::open(path).map_err(|error| wrong(&error))?;
+    let file = File::open(path).map_err(|error| {
+        wrong(&format!("{error}; name a file with a gene a line, such as a run's champion.csv"))
+    })?;
     let read = genome_csv::read(file).map_err(|error| wrong(&error))?;
     for clamped in &read.clamped {
         say(&format!("warning: {}: {clamped}", path.display()));

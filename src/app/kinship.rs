@@ -11,6 +11,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 
+/// What an island tells its launcher when it has evolved all its generations.
+pub const FINISHED: &str = "finished";
+/// What the monitor tells its launcher, before the address that serves the view.
+pub const SERVING: &str = "serving ";
+
 /// A child process, seen from its parent. Dropped, it is killed and waited for.
 pub struct Kin {
     name: String,

@@ -3,7 +3,7 @@
 use super::cli::RunArgs;
 use super::config::Config;
 use super::console::{Stopwatch, print, say};
-use super::kinship::{Ear, Kin};
+use super::kinship::{Ear, FINISHED, Kin, SERVING};
 use super::progress::Progress;
 use super::result::{self, Podium, Summary};
 use super::{Failure, config};
@@ -17,15 +17,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
-/// What an island tells its launcher when it has evolved all its generations.
-pub const FINISHED: &str = "finished";
-/// What the monitor tells its launcher, before the address that serves the view.
-pub const SERVING: &str = "serving ";
-
 /// The launcher looks about so often.
 const LOOK: Duration = Duration::from_millis(20);
 /// The monitor may film what it has not filmed yet for so long after the islands have finished.
 const LAST_REEL: Duration = Duration::from_secs(300);
+/// What takes longer is worth a word to the user.
+const SOON: Duration = Duration::from_secs(1);
 /// Islands that are asked to stop finish the generation that they are in; for so long.
 const LAST_WORDS: Duration = Duration::from_secs(60);
 
@@ -35,18 +32,8 @@ const LAST_WORDS: Duration = Duration::from_secs(60);
 /// With exit code 2, before anything was made, if what was asked for is impossible; with 1 if the run
 /// failed; with 130 if it was interrupted.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
-    let mut config = match &args.config {
-        Some(path) => args.over(Config::read(path)?),
-        None => args.over(Config::default()),
-    };
-    config.check()?;
-    let seed = config.seed.map_or_else(|| entropy().map(|seed| seed >> 32), Ok)?;
-    config.seed = Some(seed);
     let domain = Domain::new(entropy()?);
-    config.launch = Some(config::Launch {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        run_id: domain.to_string(),
-    });
+    let config = resolve(args, &domain)?;
     let ear = Ear::to_signals()?;
     let harbour = Harbour::<Gene>::create(&domain, &config.archipelago())?;
     let dir = run_dir(args.out.as_deref(), &config);
@@ -55,27 +42,38 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     atomic::write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
 
     let mut run = Run::start(args, config, dir, &domain, ear)?;
-    let outcome = run.watch_over();
+    let watched = run.watch_over();
     run.progress.finish();
-    let summary = match outcome {
-        Ok(()) => run.gather(),
-        Err(failure) => {
-            run.stop();
-            Err(failure)
-        }
-    };
+    run.stop();
+    let summary = watched.and_then(|()| run.gather());
     drop(run);
     harbour.close()?;
     let summary = summary?;
-    if !args.quiet {
+    if args.json {
+        let json = serde_json::to_string(&summary);
+        print(&json.expect("a summary is plain data, its numbers finite"));
+    } else {
         show(&summary);
     }
-    if args.json {
-        print(
-            &serde_json::to_string(&summary).expect("a summary is plain data, its numbers finite"),
-        );
-    }
     Ok(())
+}
+
+/// The complete configuration: flags over a file over defaults, with a seed.
+fn resolve(args: &RunArgs, domain: &Domain) -> Result<Config, Failure> {
+    let mut config = match &args.config {
+        Some(path) => args.over(Config::read(path)?),
+        None => args.over(Config::default()),
+    };
+    config.check()?;
+    if config.seed.is_none() {
+        // Half of it is entropy enough, and a number that people can copy.
+        config.seed = Some(entropy()? >> 32);
+    }
+    config.launch = Some(config::Launch {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        run_id: domain.to_string(),
+    });
+    Ok(config)
 }
 
 /// A run under way.
@@ -147,6 +145,7 @@ impl Run {
                     self.dir.path().display()
                 )));
             }
+            self.miss_monitor();
             for island in &mut self.islands {
                 if let Some(status) = island.ended() {
                     return Err(Failure::failed(format!(
@@ -160,6 +159,14 @@ impl Run {
         }
         self.wall_seconds = self.watch.seconds();
         Ok(())
+    }
+
+    /// A run goes on without its monitor, but not without a word.
+    fn miss_monitor(&mut self) {
+        if let Some(status) = self.monitor.as_mut().and_then(Kin::ended) {
+            self.monitor = None;
+            say(&format!("warning: the monitor ended ({status}); the run goes on without a film"));
+        }
     }
 
     /// Takes in what islands and monitor report, for a moment.
@@ -182,9 +189,7 @@ impl Run {
         Ok(())
     }
 
-    /// Lets the islands go, waits for the film, and gathers the result.
-    fn gather(&mut self) -> Result<Summary, Failure> {
-        self.stop();
+    fn gather(&self) -> Result<Summary, Failure> {
         result::gather(&self.dir, &self.config, self.wall_seconds)
     }
 
@@ -194,6 +199,7 @@ impl Run {
         wait_for(&mut self.islands, LAST_WORDS);
         let Some(mut monitor) = self.monitor.take() else { return };
         monitor.ask_to_stop();
+        wait_for(std::slice::from_mut(&mut monitor), SOON);
         if monitor.ended().is_none() {
             self.progress.say("the monitor films the last champions …");
         }

@@ -26,8 +26,7 @@ pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
 mod watched {
     use super::super::config::Config;
     use super::super::console::say;
-    use super::super::kinship::{Ear, tell};
-    use super::super::launcher::SERVING;
+    use super::super::kinship::{Ear, SERVING, tell};
     use super::super::{Failure, island};
     use super::MonitorArgs;
     use crate::creature::Gene;

@@ -86,10 +86,11 @@ impl Progress {
         }
     }
 
-    /// Leaves the bars as they are.
+    /// Leaves the bars as they are, and goes on below them.
     pub fn finish(&self) {
         if let Show::Bars(_, bars) = &self.show {
             bars.iter().for_each(ProgressBar::abandon);
+            say("");
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::expansion::Copy;
 use super::morphology::{JointKind, Morphology};
-use super::profile::{Profile, Traits};
-use serde::{Deserialize, Serialize};
+use super::profile::Profile;
+use super::traits::Traits;
+use super::waveform::Waveform;
 use std::f64::consts::{PI, TAU};
 
 /// The motors of a body.
@@ -28,30 +29,6 @@ pub struct Motor {
     pub phase_step_rad: f64,
     /// The largest torque that it can exert, in newton metres.
     pub torque_nm_max: f64,
-}
-
-/// The form of a wave over one cycle, from -1 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Waveform {
-    /// The sine of the phase.
-    Sine,
-    /// 1 for the first half of the cycle, then -1.
-    Pulse,
-    /// Rises evenly from -1 to 1, then falls back at once.
-    Ramp,
-}
-
-impl Waveform {
-    /// The wave's value at a phase from 0 (included) to 2π (excluded).
-    pub fn at(self, phase_rad: f64) -> f64 {
-        match self {
-            Waveform::Sine => libm::sin(phase_rad),
-            Waveform::Pulse if phase_rad < PI => 1.0,
-            Waveform::Pulse => -1.0,
-            Waveform::Ramp => phase_rad / PI - 1.0,
-        }
-    }
 }
 
 impl Motor {
@@ -105,18 +82,4 @@ pub fn build(
         })
     });
     Controller { period_s: profile.control_period_s(), motors: motors.collect() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn waves_run_from_minus_one_to_one() {
-        assert_eq!(Waveform::Sine.at(0.0), 0.0);
-        assert_eq!(Waveform::Pulse.at(0.0), 1.0);
-        assert_eq!(Waveform::Pulse.at(PI), -1.0);
-        assert_eq!(Waveform::Ramp.at(0.0), -1.0);
-        assert_eq!(Waveform::Ramp.at(PI), 0.0);
-    }
 }

@@ -1,6 +1,6 @@
 //! A genome as a flat list of links: which gene hangs on which.
 
-use super::profile::Traits;
+use super::traits::Traits;
 
 /// The parent of each gene's link among the links of earlier genes; none for the first, the root.
 pub fn parents(traits: &[Traits]) -> Vec<Option<usize>> {

@@ -22,12 +22,16 @@ pub mod gene;
 pub mod genome;
 pub mod morphology;
 pub mod profile;
+pub mod traits;
+pub mod waveform;
 
-pub use controller::{Controller, Motor, Waveform};
+pub use controller::{Controller, Motor};
 pub use expansion::Copy;
 pub use gene::{Gene, PARAMETERS, Parameter};
 pub use morphology::{Joint, JointKind, Link, Morphology, Shape};
-pub use profile::{Profile, Traits};
+pub use profile::Profile;
+pub use traits::Traits;
+pub use waveform::Waveform;
 
 /// A genome expressed, with every stage of its development.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
 //! The body: rigid links in a tree of joints.
 
 use super::expansion::Copy;
-use super::profile::{Profile, SolidKind, Traits};
+use super::profile::Profile;
+use super::traits::{SolidKind, Traits};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, vector};
 use std::f64::consts::{FRAC_PI_2, PI};
 

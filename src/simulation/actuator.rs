@@ -1,12 +1,9 @@
 //! Plays a controller's motors on a body.
 
-use super::multibody::Body;
+use super::multibody::{Body, MOTOR_GAIN};
 use super::scene::Scene;
 use crate::creature::Controller;
 use rapier3d::prelude::JointAxis;
-
-/// How eagerly a motor corrects its speed, in N·m·s/rad: so large that only its greatest torque limits it.
-pub(super) const MOTOR_GAIN: f32 = 1e6;
 
 /// The motors of one body and the phases that they are at, in radians.
 pub struct Actuators<'a> {

@@ -10,6 +10,9 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 use rapier3d::prelude as rapier;
 use std::f64::consts::FRAC_PI_2;
 
+/// How eagerly a motor corrects its speed, in N·m·s/rad: so large that only its greatest torque limits it.
+pub(super) const MOTOR_GAIN: f32 = 1e6;
+
 /// A body in a scene.
 pub struct Body {
     /// Where each link is: a rigid body and the link's place in it.
@@ -149,7 +152,7 @@ impl Body {
         let hinge = rapier::GenericJointBuilder::new(rapier::JointAxesMask::LOCKED_REVOLUTE_AXES)
             .local_frame1(to_rapier(&parent_from_hinge))
             .local_frame2(to_rapier(&link_from_hinge))
-            .motor_velocity(rapier::JointAxis::AngX, 0.0, super::actuator::MOTOR_GAIN)
+            .motor_velocity(rapier::JointAxis::AngX, 0.0, MOTOR_GAIN)
             .motor_max_force(rapier::JointAxis::AngX, torque_nm_max as f32)
             .contacts_enabled(false);
         scene

@@ -1,6 +1,6 @@
 //! The arrangement of the viewer.
 
-use super::recorder::RunCard;
+use super::card::RunCard;
 use super::{PLAYBACK, ViewError, palette, scenery};
 use rerun::blueprint::{
     BarChartView, Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, GraphView, Grid,

@@ -35,6 +35,8 @@ const FRAME_RATE: f64 = 60.0;
 const TRAIL_RATE: f64 = 10.0;
 /// The side of two floor tiles: a floor moved by this looks as before.
 const FLOOR_STEP_M: f32 = 2.0;
+/// The highest that a label hangs in an island's own view, in reaches of the body: above it is out of sight.
+const MARKER_MAX: f32 = 0.75;
 
 /// Writes a clip into its place in the film.
 pub fn show(rec: &RecordingStream, screening: Screening<'_>, slot_s: f64) -> Result<(), ViewError> {
@@ -190,7 +192,7 @@ impl<'a> Take<'a> {
 
         let above = (self.top_m() - self.height_m) / self.reach_m;
         // Where champions are small on the screen, their labels need more room.
-        self.label(rec, "marker", above + 0.35)?;
+        self.label(rec, "marker", (above + 0.35).min(MARKER_MAX))?;
         self.label(rec, "flag", above + 1.4)?;
 
         let floor = self.follow.iter().map(|xy| {

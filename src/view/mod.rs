@@ -30,6 +30,7 @@
 //! run that nobody watches ends with the same bits.
 
 pub mod blueprint;
+pub mod card;
 pub mod clip;
 mod extent;
 pub mod film;
@@ -41,9 +42,10 @@ pub mod scenery;
 #[expect(clippy::disallowed_methods, reason = "a walker of the tests decides no result")]
 mod tests;
 
+pub use card::RunCard;
 pub use clip::Clip;
 pub use film::Pace;
-pub use recorder::{Live, Recorder, RunCard};
+pub use recorder::{Live, Recorder};
 
 use std::path::PathBuf;
 

@@ -1,7 +1,8 @@
 //! A run's recording: a file, and a server for those who watch live.
 
 use super::blueprint::{self, Audience};
-use super::film::{Film, Pace};
+use super::card::RunCard;
+use super::film::Film;
 use super::{Clip, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
 use crate::archipelago::island::Report;
 use crate::evolution::Spread;
@@ -14,21 +15,6 @@ use rerun::{
 };
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
-
-/// What a recording says of its run.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RunCard {
-    /// The number of islands.
-    pub islands: u32,
-    /// The unit of fitness, such as "m".
-    pub unit: String,
-    /// A page on the run, in Markdown.
-    pub description_markdown: String,
-    /// Who sends to whom.
-    pub topology_edges: Vec<(u32, u32)>,
-    /// How fast generations pass in the film.
-    pub pace: Pace,
-}
 
 /// How a recording is served while it is made, on this machine only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

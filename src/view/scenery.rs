@@ -1,6 +1,6 @@
 //! What stands still: floors, lanes, the start line, the graph of who sends to whom, the run card.
 
-use super::recorder::RunCard;
+use super::card::RunCard;
 use super::{ViewError, palette};
 use rerun::components::InterpolationMode;
 use rerun::{
