@@ -139,13 +139,13 @@ fn a_genome_that_cannot_be_read_is_refused_by_every_command() {
         &world,
         wishes,
         expect![[r#"
-        cannot use nowhere.csv: No such file or directory (os error 2)
-        cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-        --threads and --repeat must be at least 1
-        --threads and --repeat must be at least 1
-        cannot use nowhere.csv: No such file or directory (os error 2)
-        cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-        cannot use .: the genome cannot be read: Is a directory (os error 21)"#]],
+            cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
+            cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
+            --threads and --repeat must be at least 1
+            --threads and --repeat must be at least 1
+            cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
+            cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
+            cannot use .: the genome cannot be read: Is a directory (os error 21)"#]],
     );
 }
 
@@ -167,11 +167,11 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
         &world,
         wishes,
         expect![[r#"
-        cannot use nowhere.csv: No such file or directory (os error 2)
-        cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-        cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
-        cannot write the recording good.csv/film.rrd: Failed to create file: Not a directory (os error 20), path: good.csv/film.rrd; choose another file with --out
-        cannot use nowhere/run.toml: No such file or directory (os error 2)"#]],
+            cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
+            cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
+            cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
+            cannot write the recording good.csv/film.rrd: Failed to create file: Not a directory (os error 20), path: good.csv/film.rrd; choose another file with --out
+            cannot use nowhere/run.toml: No such file or directory (os error 2)"#]],
     );
 }
 
