@@ -1,6 +1,6 @@
 //! A run, with every real part: processes, shared memory, files.
 
-use crate::support::{TINY, World, run_id, runs_in_shared_memory, signal, until};
+use crate::support::{Ending, Running, TINY, World, run_id, runs_in_shared_memory, signal, until};
 use islands::app::config::Config;
 use islands::archipelago::Island;
 use islands::creature::Gene;
@@ -167,13 +167,21 @@ fn more_islands_than_cores_work() {
 #[test]
 fn two_runs_at_once_do_not_disturb_each_other() {
     let world = World::new();
-    let arguments = |out| format!("--n 2 --seed 3 --out {out} --quiet --json {TINY}");
+    let arguments = |out| format!("--n 2 --seed 3 --out {out} --json {TINY}");
     let runs = ["a", "b"].map(|out| world.start(&arguments(out)));
-    let digests = runs.map(|run| {
-        let ending = run.wait();
+    let [a, b] = runs.map(Running::wait);
+    for ending in [&a, &b] {
         assert_eq!(ending.code, Some(0), "{ending:?}");
-        ending.json()["digest"].clone()
-    });
+        assert!(!ending.stderr.contains("warning"), "{ending:?}");
+    }
+    let address = |ending: &Ending| {
+        let line =
+            ending.stderr.lines().find_map(|line| line.strip_prefix("watch it live:  rerun "));
+        line.map(str::to_owned)
+    };
+    assert_eq!(address(&a).is_some(), cfg!(feature = "view"));
+    assert!(address(&a).is_none() || address(&a) != address(&b), "{a:?} {b:?}");
+    let digests = [a, b].map(|ending| ending.json()["digest"].clone());
     assert_eq!(digests[0], digests[1]);
     assert_eq!(digests[0], world.digest("alone", &format!("--n 2 --seed 3 {TINY}")));
 }
