@@ -1,5 +1,6 @@
 //! The course's genomes: thousands exist, and each must become the same body here, link for link.
 
+use crate::support::assert_same;
 use expect_test::expect;
 use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use islands::creature::profile::COURSEWORK_LINKS_MAX;
@@ -12,9 +13,9 @@ use serde_json::Value;
 use std::fs;
 use std::path::PathBuf;
 
-const FIXTURES: usize = 7;
+pub const FIXTURES: usize = 7;
 
-fn fixture(name: &str) -> String {
+pub fn fixture(name: &str) -> String {
     let path: PathBuf =
         [env!("CARGO_MANIFEST_DIR"), "tests/fixtures/course", name].iter().collect();
     fs::read_to_string(path).unwrap()
@@ -24,29 +25,6 @@ fn genome(name: &str) -> Vec<Gene> {
     let read = genome_csv::read(fixture(name).as_bytes()).unwrap();
     assert_eq!(read.clamped, [], "{name}");
     read.genome
-}
-
-/// Asserts that two JSON values are the same, numbers to the last bit, whether written as 1 or 1.0.
-fn assert_same(found: &Value, expected: &Value, place: &str) {
-    match (found, expected) {
-        (Value::Object(found), Value::Object(expected)) => {
-            assert!(found.keys().eq(expected.keys()), "{place}: {found:?}, not {expected:?}");
-            for (key, value) in expected {
-                assert_same(&found[key], value, &format!("{place}.{key}"));
-            }
-        }
-        (Value::Array(found), Value::Array(expected)) => {
-            assert_eq!(found.len(), expected.len(), "{place}");
-            for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
-                assert_same(found, expected, &format!("{place}[{i}]"));
-            }
-        }
-        (Value::Number(_), Value::Number(_)) => {
-            let (found, expected) = (found.as_f64().unwrap(), expected.as_f64().unwrap());
-            assert_eq!(found.to_bits(), expected.to_bits(), "{place}: {found}, not {expected}");
-        }
-        _ => assert_eq!(found, expected, "{place}"),
-    }
 }
 
 #[test]

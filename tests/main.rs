@@ -1,4 +1,11 @@
 //! The promises of the crate, a module a subject.
 
+mod cli;
 mod course;
+mod determinism;
+mod physics;
+#[cfg(feature = "view")]
+mod recording;
+mod run;
+mod support;
 mod tidy;

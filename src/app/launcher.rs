@@ -19,6 +19,8 @@ use std::time::Duration;
 
 /// The launcher looks about so often.
 const LOOK: Duration = Duration::from_millis(20);
+/// A monitor that starts more slowly than the islands evolve is waited for so long.
+const FIRST_LOOK: Duration = Duration::from_secs(30);
 /// The monitor may film what it has not filmed yet for so long after the islands have finished.
 const LAST_REEL: Duration = Duration::from_secs(300);
 /// What takes longer is worth a word to the user.
@@ -37,7 +39,8 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let ear = Ear::to_signals()?;
     let harbour = Harbour::<Gene>::create(&domain, &config.archipelago())?;
     let dir = run_dir(args.out.as_deref(), &config);
-    dir.create(config.islands).map_err(|error| Failure::usage(error.to_string()))?;
+    let elsewhere = |error| Failure::usage(format!("{error}; choose another folder with --out"));
+    dir.create(config.islands).map_err(elsewhere)?;
     atomic::write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
 
     let mut run = Run::start(args, config, dir, &domain, ear)?;
@@ -83,6 +86,8 @@ struct Run {
     ear: Ear,
     islands: Vec<Kin>,
     monitor: Option<Kin>,
+    /// Whether the monitor receives what the islands report.
+    is_watched: bool,
     lines: Receiver<(String, String)>,
     lookout: Lookout<Gene>,
     podium: Podium,
@@ -127,6 +132,7 @@ impl Run {
             ear,
             islands,
             monitor,
+            is_watched: false,
             lines,
             lookout,
             progress,
@@ -157,6 +163,17 @@ impl Run {
             }
         }
         self.wall_seconds = self.watch.seconds();
+        self.await_monitor()
+    }
+
+    /// Waits until the monitor looks: one that comes when the islands are gone has nothing to film.
+    fn await_monitor(&mut self) -> Result<(), Failure> {
+        let watch = Stopwatch::start();
+        let is_coming = |run: &Self| run.monitor.is_some() && !run.is_watched;
+        while is_coming(self) && watch.elapsed() < FIRST_LOOK && !self.ear.heard_stop() {
+            self.look()?;
+            self.miss_monitor();
+        }
         Ok(())
     }
 
@@ -174,6 +191,7 @@ impl Run {
             if line == FINISHED {
                 self.finished += 1;
             } else if let Some(address) = line.strip_prefix(SERVING) {
+                self.is_watched = true;
                 self.progress.say(&format!("watch it live:  rerun {address}"));
             } else {
                 self.progress.say(&format!("{name}: {line}"));

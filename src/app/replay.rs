@@ -32,7 +32,8 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
         let wrong = |error| Failure::usage(format!("cannot film {}: {error}", path.display()));
         films.push(problem.film(genome).map_err(wrong)?);
     }
-    let mut recorder = Recorder::create(&args.out, None, card)?;
+    let elsewhere = |error| Failure::usage(format!("{error}; choose another file with --out"));
+    let mut recorder = Recorder::create(&args.out, None, card).map_err(elsewhere)?;
     for ((index, path), (evaluation, trajectory)) in (0..).zip(&args.genomes).zip(films) {
         let score = problem.show(evaluation.fitness);
         let name = path.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();

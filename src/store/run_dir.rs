@@ -32,9 +32,7 @@ impl RunDir {
     pub fn create(&self, islands: u32) -> Result<(), StoreError> {
         let occupied = std::fs::read_dir(&self.0).is_ok_and(|mut entries| entries.next().is_some());
         if occupied {
-            let source = std::io::Error::other(
-                "it is not empty; choose another folder with --out, or remove it",
-            );
+            let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
         }
         let checkpoints = (0..islands).map(|island| self.checkpoints(island));

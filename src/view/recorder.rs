@@ -14,6 +14,8 @@ use rerun::{
     ServerOptions, TextLog,
 };
 use std::net::{Ipv4Addr, TcpListener};
+use std::os::linux::net::SocketAddrExt;
+use std::os::unix::net::{SocketAddr, UnixDatagram};
 use std::path::{Path, PathBuf};
 
 /// How a recording is served while it is made, on this machine only.
@@ -44,7 +46,14 @@ pub struct Recorder {
     stream: RecordingStream,
     film: Film,
     path: PathBuf,
-    address: Option<String>,
+    server: Option<Served>,
+}
+
+/// Where a recording is served.
+struct Served {
+    address: String,
+    // Held open: it keeps the other runs of this machine from the port.
+    _claim: UnixDatagram,
 }
 
 impl Recorder {
@@ -53,11 +62,10 @@ impl Recorder {
         let application = ApplicationId::from(APPLICATION);
         let file = FileSink::new(path)
             .map_err(|source| ViewError::Create { path: path.to_owned(), source: source.into() })?;
-        let server = live.map(serve).transpose()?;
-        let address = server.as_ref().map(|server| server.uri().to_string());
+        let (sink, server) = live.map(serve).transpose()?.unzip();
 
         let mut sinks: Vec<(Audience, Box<dyn LogSink>)> = vec![(Audience::File, Box::new(file))];
-        sinks.extend(server.map(|server| (Audience::Live, Box::new(server) as Box<dyn LogSink>)));
+        sinks.extend(sink.map(|sink| (Audience::Live, Box::new(sink) as Box<dyn LogSink>)));
         // Rerun's switch RERUN=off turns everything off, and it cannot build a blueprint then.
         let on = rerun::decide_logging_enabled(true);
         for (audience, sink) in sinks.iter().filter(|_| on) {
@@ -71,12 +79,12 @@ impl Recorder {
         stream.set_log_tick_enabled(false);
         scenery::build(&stream, &card)?;
         let film = Film::new(card.islands, card.pace);
-        Ok(Self { stream, film, path: path.to_owned(), address })
+        Ok(Self { stream, film, path: path.to_owned(), server })
     }
 
     /// What to give to a viewer to watch live: `rerun ADDRESS`.
     pub fn address(&self) -> Option<String> {
-        self.address.clone()
+        self.server.as_ref().map(|server| server.address.clone())
     }
 
     /// One generation of one island: its figures, and the champion if it is time to show it. Report each
@@ -152,18 +160,28 @@ impl Recorder {
 }
 
 /// A server on the first free port from the wanted one on.
-fn serve(live: Live) -> Result<GrpcServerSink, ViewError> {
+fn serve(live: Live) -> Result<(GrpcServerSink, Served), ViewError> {
     let last = live.port.saturating_add(PORTS - 1);
-    // Rerun's server would only log that its port is taken.
-    let free = |&port: &u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port)).is_ok();
-    let port =
-        (live.port..=last).find(free).ok_or(ViewError::NoFreePort { first: live.port, last })?;
+    let free = |port| Some((port, claim(port)?));
+    let (port, claim) = (live.port..=last)
+        .find_map(free)
+        .ok_or(ViewError::NoFreePort { first: live.port, last })?;
     let options = ServerOptions {
         memory_limit: MemoryLimit::from_bytes(live.memory_limit_bytes),
         ..Default::default()
     };
     let address = Ipv4Addr::LOCALHOST.to_string();
-    Ok(GrpcServerSink::new(&address, port, options).expect("an address of this machine"))
+    let sink = GrpcServerSink::new(&address, port, options).expect("an address of this machine");
+    let address = sink.uri().to_string();
+    Ok((sink, Served { address, _claim: claim }))
+}
+
+/// Claims a port that nobody uses. Rerun's server opens it a while later and ends if it is taken by then, so
+/// runs that start at once first agree on who has which: by a name that ends with its process.
+fn claim(port: u16) -> Option<UnixDatagram> {
+    let name = SocketAddr::from_abstract_name(format!("{APPLICATION}-live-{port}")).ok()?;
+    let claim = UnixDatagram::bind_addr(&name).ok()?;
+    TcpListener::bind((Ipv4Addr::LOCALHOST, port)).is_ok().then_some(claim)
 }
 
 fn histogram(island: u32, spread: &Spread) -> BarChart {

@@ -132,6 +132,24 @@ fn a_taken_port_is_passed_over() {
 }
 
 #[test]
+fn recorders_that_start_at_once_serve_on_different_ports() {
+    let directory = tempfile::tempdir().unwrap();
+    let recorders: Vec<Recorder> = std::thread::scope(|scope| {
+        let create = |i| {
+            let path = directory.path().join(format!("{i}.rrd"));
+            Recorder::create(&path, Some(Live::default()), card(1)).unwrap()
+        };
+        let threads: Vec<_> = (0..4).map(|i| scope.spawn(move || create(i))).collect();
+        threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    let mut addresses: Vec<_> = recorders.iter().map(Recorder::address).collect();
+    addresses.sort();
+    addresses.dedup();
+    assert_eq!(addresses.len(), recorders.len(), "{addresses:?}");
+    recorders.into_iter().for_each(|recorder| recorder.finish().unwrap());
+}
+
+#[test]
 fn a_recording_that_cannot_be_opened_is_an_error() {
     let error = Recorder::create(Path::new("/nowhere/run.rrd"), None, card(1)).err().unwrap();
     assert!(error.to_string().contains("/nowhere/run.rrd"), "{error}");

@@ -1,0 +1,111 @@
+//! Same seed, same bits: whatever the threads, the processes and the day.
+//!
+//! `tests/golden` holds configurations and, beside each, the digest that it has had since it was committed.
+//! After a change that is meant to change results, write them anew and say so in the commit:
+//! `ISLANDS_BLESS=1 cargo test --release golden`.
+
+use crate::support::World;
+use islands::app::config::Config;
+use islands::archipelago::{Digest, Step, lockstep};
+use islands::creature::Gene;
+use islands::formats::metrics::{self, Row};
+use islands::store::RunDir;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const BLESS: &str = "ISLANDS_BLESS";
+
+/// The digest and the metrics of a configuration's archipelago, evolved in this process.
+fn in_lockstep(config: &Config) -> (String, Vec<Row>) {
+    let mut rows = Vec::new();
+    let observe = |step: &Step<Gene>| rows.push(Row::new(&step.report, 0.0));
+    let (problem, archipelago) = (config.problem(), config.archipelago());
+    let islands = lockstep::run(&problem, &archipelago, config.generations, observe);
+    (Digest::of(&islands).to_string(), rows)
+}
+
+/// The same of a run in processes.
+fn in_processes(world: &World, name: &str, settings: &str) -> (String, Vec<Row>) {
+    let digest = world.digest(name, settings);
+    let file = fs::File::open(RunDir::at(world.path(name)).metrics()).unwrap();
+    let timeless = |row| Row { seconds: 0.0, ..row };
+    (digest, metrics::read(file).unwrap().into_iter().map(timeless).collect())
+}
+
+#[test]
+fn the_number_of_threads_changes_no_digest_and_no_metric() {
+    let world = World::new();
+    let settings =
+        "--n 2 --seed 17 --population 6 --generations 3 --genes 2 --migration-interval 1";
+    let run = |threads| {
+        let name = format!("threads-{threads}");
+        in_processes(&world, &name, &format!("{settings} --threads {threads}"))
+    };
+    let one = run(1);
+    assert_eq!(one.1.len(), 8);
+    assert_eq!(run(2), one);
+    assert_eq!(run(5), one);
+}
+
+#[test]
+fn processes_that_exchange_migrants_equal_an_archipelago_in_one_process() {
+    let world = World::new();
+    let settings = "--seed 19 --population 4 --generations 3 --genes 2";
+    for (name, more) in [
+        ("three", "--n 3 --migration-interval 1"),
+        ("three-at-once", "--n 3 --migration-interval 2 --migration-lag 0"),
+        ("two-send-all", "--n 2 --migration-interval 1 --migrants 4"),
+    ] {
+        let found = in_processes(&world, name, &format!("{settings} {more}"));
+        let config = Config::read(&RunDir::at(world.path(name)).config()).unwrap();
+        assert_eq!(found, in_lockstep(&config), "{name}");
+        assert!(found.1.iter().any(|row| row.immigrants > 0), "{name}");
+    }
+}
+
+#[test]
+fn every_part_of_a_seed_matters() {
+    let digest = |seed| {
+        let small = Config { islands: 1, population: 2, elites: 1, genes: 1, ..Config::default() };
+        in_lockstep(&Config { seed: Some(seed), generations: 0, ..small }).0
+    };
+    let seeds = [0, 1, 1 << 32, i64::MAX as u64];
+    let digests: BTreeSet<String> = seeds.map(digest).into();
+    assert_eq!(digests.len(), seeds.len());
+}
+
+#[test]
+fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
+    let goldens = goldens();
+    let names: Vec<_> = goldens.iter().map(|path| path.file_stem().unwrap()).collect();
+    assert_eq!(names, ["course-coursework", "debug", "travel-lecture", "walk-native"]);
+    let world = World::new();
+    let mut wrong = Vec::new();
+    for config in &goldens {
+        let name = config.file_stem().unwrap().to_str().unwrap();
+        let (found, rows) = in_processes(&world, name, &format!("--config {}", config.display()));
+        // One that nobody travels in would not show a change of the exchange.
+        assert!(name == "debug" || rows.iter().any(|row| row.immigrants > 0), "{name}");
+        let file = config.with_extension("digest");
+        if std::env::var_os(BLESS).is_some() {
+            fs::write(&file, format!("{found}\n")).unwrap();
+        }
+        let expected = fs::read_to_string(&file).unwrap_or_default();
+        if expected.trim_end() != found {
+            wrong.push(format!("{name} has {found}, not {expected:?}"));
+        }
+    }
+    let advice = "if results are meant to change: ISLANDS_BLESS=1 cargo test --release golden";
+    assert!(wrong.is_empty(), "{}\n{advice}", wrong.join("\n"));
+}
+
+/// The configurations, in order.
+fn goldens() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut configs: Vec<_> =
+        files.filter(|path| path.extension().is_some_and(|end| end == "toml")).collect();
+    configs.sort();
+    configs
+}

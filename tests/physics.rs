@@ -1,0 +1,153 @@
+//! A few truths that every simulation must keep to, however its constants are tuned.
+
+use islands::creature::gene::PARAMETER_COUNT;
+use islands::creature::{Gene, Profile};
+use islands::evolution::{Evaluation, Outcome, Problem};
+use islands::problems::{Locomotion, Task};
+use islands::rng::{Purpose, Source};
+use islands::simulation::Trajectory;
+use std::collections::BTreeMap;
+
+fn problem(profile: Profile, task: Task) -> Locomotion {
+    Locomotion { profile, task, genes: 3, links_max: 32 }
+}
+
+/// Genomes of one to three genes.
+fn random_genomes(count: u32) -> Vec<Vec<Gene>> {
+    let genome = |index| {
+        let genes = 1 + index as usize % 3;
+        let problem = Locomotion { genes, ..problem(Profile::Native, Task::Walk) };
+        problem.random_genome(&mut Source { seed: 31, island: 0 }.stream(
+            0,
+            index,
+            Purpose::Genesis,
+        ))
+    };
+    (0..count).map(genome).collect()
+}
+
+/// A gene without anything special, but for its shape.
+fn plain_gene(shape: f64) -> Gene {
+    let mut gene = Gene([0.5; PARAMETER_COUNT]);
+    gene.0[0] = shape;
+    gene
+}
+
+#[test]
+fn a_link_falls_by_half_g_t_squared() {
+    const STEP_S: f64 = 1.0 / 240.0;
+    for profile in Profile::ALL {
+        let course = problem(profile, Task::Course);
+        let (_, film) = course.film(&[plain_gene(0.9)]).unwrap();
+        let frames = film.times_s.iter().zip(&film.poses).take_while(|(t, _)| **t <= 0.4);
+        for (t, poses) in frames {
+            let [x, y, z] = poses[0].position_m.map(f64::from);
+            let fallen = 2.5 - z;
+            // A velocity that is constant over a step is wrong by at most that of half a step.
+            let error = (fallen - 0.5 * 10.0 * t * t).abs();
+            assert!(error <= 10.0 * t * STEP_S + 1e-6, "{fallen} m in {t} s");
+            assert_eq!((x, y), (0.0, 0.0));
+        }
+    }
+}
+
+#[test]
+fn a_box_that_nothing_drives_stays_where_it_lands() {
+    let scored = problem(Profile::Native, Task::Walk).evaluate(&[plain_gene(0.9)]);
+    assert!(scored.fitness.finite().unwrap() < 0.01, "{scored:?}");
+}
+
+#[test]
+fn the_middle_of_no_link_is_ever_below_the_ground() {
+    let walk = problem(Profile::Native, Task::Walk);
+    for genome in random_genomes(12) {
+        let (_, film) = walk.film(&genome).unwrap();
+        let heights = film.poses.iter().flatten().map(|pose| pose.position_m[2]);
+        let lowest = heights.fold(f32::INFINITY, f32::min);
+        assert!(lowest > 0.0, "{lowest}");
+    }
+}
+
+/// All that is known of a trial, as bits.
+fn bits(evaluation: Evaluation, film: &Trajectory) -> Vec<u64> {
+    let poses = film.poses.iter().flatten();
+    let numbers = poses.flat_map(|pose| pose.position_m.into_iter().chain(pose.rotation_xyzw));
+    let fitness = evaluation.fitness.get().to_bits();
+    std::iter::once(fitness).chain(numbers.map(|number| number.to_bits().into())).collect()
+}
+
+#[test]
+fn a_creature_moves_by_the_same_bits_again_on_any_thread_and_among_others() {
+    let genomes = random_genomes(4);
+    for profile in Profile::ALL {
+        let walk = problem(profile, Task::Walk);
+        let film = |genome: &Vec<Gene>| {
+            let (evaluation, film) = walk.film(genome).unwrap();
+            bits(evaluation, &film)
+        };
+        let once: Vec<_> = genomes.iter().map(film).collect();
+        let at_once: Vec<_> = std::thread::scope(|scope| {
+            let threads: Vec<_> = genomes.iter().map(|g| scope.spawn(move || film(g))).collect();
+            threads.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        assert!(once == at_once, "{profile}");
+    }
+}
+
+#[test]
+fn a_creature_scores_the_same_whether_it_is_filmed_or_not() {
+    for task in Task::ALL {
+        let problem = problem(Profile::Native, task);
+        for genome in random_genomes(4) {
+            let (filmed, _) = problem.film(&genome).unwrap();
+            let scored = problem.evaluate(&genome);
+            assert_eq!(filmed.fitness.get().to_bits(), scored.fitness.get().to_bits());
+            assert_eq!(filmed.outcome, scored.outcome);
+        }
+    }
+}
+
+#[test]
+fn random_creatures_end_in_a_score_or_a_named_failure_and_never_in_a_panic() {
+    let genomes = random_genomes(200);
+    let genomes: Vec<&[Gene]> = genomes.iter().map(Vec::as_slice).collect();
+    for profile in Profile::ALL {
+        let evaluations = problem(profile, Task::Walk).evaluate_batch(&genomes);
+        let mut outcomes = BTreeMap::new();
+        for evaluation in &evaluations {
+            *outcomes.entry(evaluation.outcome).or_insert(0) += 1;
+            assert_sound(evaluation);
+        }
+        eprintln!("{profile}: {outcomes:?}");
+        assert!(!outcomes.contains_key(&Outcome::Panicked), "{profile}: {outcomes:?}");
+        // What random bodies of our own profiles do is nearly always sound.
+        let scored = outcomes[&Outcome::Scored];
+        assert!(profile == Profile::Coursework || scored >= 190, "{profile}: {outcomes:?}");
+    }
+}
+
+fn assert_sound(evaluation: &Evaluation) {
+    let Evaluation { fitness, outcome } = *evaluation;
+    assert!(!fitness.get().is_nan());
+    assert_eq!(fitness.finite().is_some(), outcome == Outcome::Scored, "{evaluation:?}");
+}
+
+/// Bodies that once flew off or stopped being numbers: a base under a gram that carries a kilogram, links
+/// of a few micrograms.
+#[test]
+fn bodies_that_once_blew_up_pass_for_no_athletes() {
+    let genomes: BTreeMap<String, Vec<Gene>> =
+        serde_json::from_str(include_str!("fixtures/physics/bad_genomes.json")).unwrap();
+    assert_eq!(genomes.len(), 5);
+    for (name, genome) in &genomes {
+        for profile in Profile::ALL {
+            for task in Task::ALL {
+                let evaluation = problem(profile, task).evaluate(genome);
+                let place = format!("{name} as {profile} in {task}: {evaluation:?}");
+                assert_sound(&evaluation);
+                assert_ne!(evaluation.outcome, Outcome::Panicked, "{place}");
+                assert!(evaluation.fitness.finite().is_none_or(|score| score < 50.0), "{place}");
+            }
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! Starting the program in a world of its own, and looking at what it leaves behind.
+
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+use tempfile::TempDir;
+
+/// Settings of a run that takes a moment and in which migrants arrive all the same.
+pub const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";
+
+const SHARED_MEMORY: &str = "/dev/shm";
+/// What the names of all that runs have in shared memory begin with; their id follows.
+const NAME: &str = "isl";
+const ID_DIGITS: usize = 16;
+
+/// How often a test looks whether something has happened that it waits for.
+const LOOK: Duration = Duration::from_millis(20);
+/// How often it looks before it gives up.
+const LOOKS: usize = 6_000;
+
+/// A folder to work in and one for temporary files, which nobody else has.
+pub struct World {
+    home: TempDir,
+}
+
+/// How the program ended, and what it said.
+#[derive(Debug)]
+pub struct Ending {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl World {
+    pub fn new() -> Self {
+        let home = tempfile::tempdir().unwrap();
+        for folder in ["work", "tmp"] {
+            fs::create_dir(home.path().join(folder)).unwrap();
+        }
+        Self { home }
+    }
+
+    /// A path in the folder that the program works in.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.home.path().join("work").join(name)
+    }
+
+    /// Writes a file there.
+    pub fn write(&self, name: &str, contents: impl AsRef<[u8]>) {
+        fs::write(self.path(name), contents).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        let path = self.path(name);
+        fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    }
+
+    /// The program with these arguments, which hold no spaces.
+    pub fn command(&self, arguments: &str) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_islands"));
+        command
+            .args(arguments.split_whitespace())
+            .current_dir(self.path(""))
+            .env("TMPDIR", self.home.path().join("tmp"))
+            .stdin(Stdio::null());
+        command
+    }
+
+    /// Runs the program to its end.
+    pub fn islands(&self, arguments: &str) -> Ending {
+        self.command(arguments).output().unwrap().into()
+    }
+
+    /// Runs the program to its end, which must be a success, and reads the object that is its last line.
+    pub fn json(&self, arguments: &str) -> Value {
+        let ending = self.islands(arguments);
+        assert_eq!(ending.code, Some(0), "islands {arguments}: {ending:?}");
+        ending.json()
+    }
+
+    /// The digest of a run without a monitor, in a folder of this name.
+    pub fn digest(&self, name: &str, arguments: &str) -> String {
+        let run = self.json(&format!("--out {name} --no-monitor --quiet --json {arguments}"));
+        self.assert_left_nothing();
+        run["digest"].as_str().unwrap().to_owned()
+    }
+
+    /// Runs the program with what it must refuse, and returns the sentence that it refuses it with.
+    pub fn refusal(&self, arguments: &str) -> String {
+        let [files, others] = [BTreeSet::from_iter(self.files()), runs_in_shared_memory()];
+        let ending = self.islands(arguments);
+        assert_eq!(ending.code, Some(2), "islands {arguments}: {ending:?}");
+        assert_eq!(ending.stdout, "");
+        assert_eq!(BTreeSet::from_iter(self.files()), files, "islands {arguments}");
+        self.assert_left_nothing();
+        // Runs of other tests come to their end; what this one left would stay.
+        let new: BTreeSet<_> = runs_in_shared_memory().difference(&others).cloned().collect();
+        until("nothing is left in shared memory", || runs_in_shared_memory().is_disjoint(&new));
+        let hint = "\n\nFor more information, try '--help'.\n";
+        let sentence = ending.stderr.strip_suffix(hint).unwrap_or(&ending.stderr).trim_end();
+        assert!(!sentence.contains('\n'), "islands {arguments}: {sentence}");
+        sentence.strip_prefix("error: ").unwrap().to_owned()
+    }
+
+    /// Starts the program and goes on.
+    pub fn start(&self, arguments: &str) -> Running {
+        let mut command = self.command(arguments);
+        Running(Some(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()))
+    }
+
+    /// Every file in the folder that the program works in, in order.
+    pub fn files(&self) -> Vec<String> {
+        let root = self.path("");
+        let mut files = files_below(&root);
+        files.sort();
+        let name = |path: PathBuf| path.strip_prefix(&root).unwrap().to_str().unwrap().to_owned();
+        files.into_iter().map(name).collect()
+    }
+
+    /// Asserts that the runs of this world, all of which have ended, left nothing outside of their folders.
+    pub fn assert_left_nothing(&self) {
+        let temporary = fs::read_dir(self.home.path().join("tmp")).unwrap();
+        let names: Vec<_> = temporary.map(|entry| entry.unwrap().file_name()).collect();
+        assert!(names.is_empty(), "{names:?} is left");
+        let ids = runs_in_shared_memory();
+        for file in self.files().iter().filter(|file| file.ends_with("run.toml")) {
+            let id = run_id(&self.read(file));
+            assert!(!ids.contains(&id), "the run {id} left something in {SHARED_MEMORY}");
+            let fallback = Path::new("/tmp").join(format!("{NAME}{id}"));
+            assert!(!fallback.exists(), "the run {id} left {}", fallback.display());
+        }
+    }
+}
+
+impl Ending {
+    /// The object that is the last line.
+    pub fn json(&self) -> Value {
+        let last = self.stdout.lines().next_back().unwrap_or_default();
+        serde_json::from_str(last).unwrap_or_else(|error| panic!("{error}: {self:?}"))
+    }
+}
+
+impl From<Output> for Ending {
+    fn from(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Self {
+            code: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+}
+
+/// The program under way; a test that fails meanwhile ends it.
+pub struct Running(Option<Child>);
+
+impl Running {
+    pub fn pid(&self) -> u32 {
+        self.0.as_ref().unwrap().id()
+    }
+
+    /// Sends a signal to it alone.
+    pub fn signal(&self, name: &str) {
+        signal(self.pid(), name);
+    }
+
+    /// Waits for its end.
+    pub fn wait(mut self) -> Ending {
+        self.0.take().unwrap().wait_with_output().unwrap().into()
+    }
+
+    /// The process of one of its islands.
+    pub fn island(&self, index: u32) -> u32 {
+        let wanted = format!("--index={index}");
+        let mut children = children(self.pid()).into_iter();
+        children
+            .find(|pid| {
+                let arguments = fs::read_to_string(format!("/proc/{pid}/cmdline"));
+                arguments.is_ok_and(|line| line.split('\0').any(|argument| argument == wanted))
+            })
+            .unwrap_or_else(|| panic!("there is no island {index}"))
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        if let Some(mut child) = self.0.take() {
+            // It may have ended by itself.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
+    }
+}
+
+/// Sends a signal to a process.
+pub fn signal(pid: u32, name: &str) {
+    let sent = Command::new("kill").args([format!("-{name}"), pid.to_string()]).status().unwrap();
+    assert!(sent.success());
+}
+
+/// Waits until something is so.
+pub fn until(what: &str, mut is_so: impl FnMut() -> bool) {
+    for _ in 0..LOOKS {
+        if is_so() {
+            return;
+        }
+        sleep(LOOK);
+    }
+    panic!("waited in vain until {what}");
+}
+
+/// The ids of all runs on this machine that have something in shared memory.
+pub fn runs_in_shared_memory() -> BTreeSet<String> {
+    let names = fs::read_dir(SHARED_MEMORY).unwrap().map(|entry| entry.unwrap().file_name());
+    let id = |name: &str| name.strip_prefix(NAME)?.get(..ID_DIGITS).map(str::to_owned);
+    names.filter_map(|name| id(name.to_str()?)).collect()
+}
+
+/// The id that a run's configuration names.
+pub fn run_id(config: &str) -> String {
+    let config: toml::Table = config.parse().unwrap();
+    config["launch"]["run-id"].as_str().unwrap().to_owned()
+}
+
+/// Asserts that two JSON values are the same, numbers to the last bit, whether written as 1 or 1.0.
+pub fn assert_same(found: &Value, expected: &Value, place: &str) {
+    match (found, expected) {
+        (Value::Object(found), Value::Object(expected)) => {
+            assert!(found.keys().eq(expected.keys()), "{place}: {found:?}, not {expected:?}");
+            for (key, value) in expected {
+                assert_same(&found[key], value, &format!("{place}.{key}"));
+            }
+        }
+        (Value::Array(found), Value::Array(expected)) => {
+            assert_eq!(found.len(), expected.len(), "{place}");
+            for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+                assert_same(found, expected, &format!("{place}[{i}]"));
+            }
+        }
+        (Value::Number(_), Value::Number(_)) => {
+            let (found, expected) = (found.as_f64().unwrap(), expected.as_f64().unwrap());
+            assert_eq!(found.to_bits(), expected.to_bits(), "{place}: {found}, not {expected}");
+        }
+        _ => assert_eq!(found, expected, "{place}"),
+    }
+}
+
+/// The processes that a process has started.
+fn children(parent: u32) -> Vec<u32> {
+    let processes = fs::read_dir("/proc").unwrap();
+    let pids = processes.filter_map(|entry| entry.ok()?.file_name().to_str()?.parse().ok());
+    pids.filter(|&pid| parent_of(pid) == Some(parent)).collect()
+}
+
+fn parent_of(pid: u32) -> Option<u32> {
+    let status = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    // The name before may hold anything but ends with the last bracket; then come the state and the parent.
+    status.rsplit_once(')')?.1.split_whitespace().nth(1)?.parse().ok()
+}
+
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(files_below(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files
+}
