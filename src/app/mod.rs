@@ -1,6 +1,6 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! [`cli`] is what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
+//! `cli` is what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
 //! process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with
 //! it, and stop when it closes their standard input. It shows their progress (`progress`), and at the end
 //! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes.

@@ -67,7 +67,7 @@ pub fn write(rows: &[Row], with_header: bool, output: impl Write) -> std::io::Re
     writer.flush()
 }
 
-/// Reads what [`write`] wrote, its header included.
+/// Reads what [`write()`] wrote, its header included.
 ///
 /// # Errors
 /// If the input cannot be read or is something else.
