@@ -3,7 +3,7 @@
 use super::cli::RunArgs;
 use super::config::Config;
 use super::console::{Stopwatch, print, say};
-use super::kinship::{Ear, FINISHED, Kin, SERVING};
+use super::kinship::{Ear, FINISHED, Kin, SERVING, WATCHING};
 use super::progress::Progress;
 use super::result::{self, Podium, Summary};
 use super::{Failure, config};
@@ -190,8 +190,9 @@ impl Run {
         if let Ok((name, line)) = self.lines.recv_timeout(LOOK) {
             if line == FINISHED {
                 self.finished += 1;
-            } else if let Some(address) = line.strip_prefix(SERVING) {
+            } else if line == WATCHING {
                 self.is_watched = true;
+            } else if let Some(address) = line.strip_prefix(SERVING) {
                 self.progress.say(&format!("watch it live:  rerun {address}"));
             } else {
                 self.progress.say(&format!("{name}: {line}"));

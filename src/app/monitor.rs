@@ -26,7 +26,7 @@ pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
 mod watched {
     use super::super::config::Config;
     use super::super::console::say;
-    use super::super::kinship::{Ear, SERVING, tell};
+    use super::super::kinship::{Ear, SERVING, WATCHING, tell};
     use super::super::{Failure, island};
     use super::MonitorArgs;
     use crate::creature::Gene;
@@ -34,7 +34,7 @@ mod watched {
     use crate::problems::Locomotion;
     use crate::store::RunDir;
     use crate::transport::{Lookout, Sighting};
-    use crate::view::{Clip, Live, Pace, Recorder, RunCard};
+    use crate::view::{Clip, Live, Pace, Recorder, RunCard, ViewError};
     use std::time::Duration;
 
     /// The monitor looks about so often.
@@ -52,8 +52,8 @@ mod watched {
         let dir = RunDir::at(&args.dir);
         let config = Config::read(&dir.config())?;
         let lookout = Lookout::<Gene>::open(&island::domain(&config)?, &config.archipelago())?;
-        let card = run_card(&config);
-        let recorder = Recorder::create(&dir.recording(), Some(Live::default()), card)?;
+        let recorder = open_recorder(&dir, &config)?;
+        tell(WATCHING);
         if let Some(address) = recorder.address() {
             tell(&format!("{SERVING}{address}"));
         }
@@ -71,6 +71,18 @@ mod watched {
             if idle {
                 std::thread::sleep(LOOK);
             }
+        }
+    }
+
+    /// Records and serves; where no port is free, only records.
+    fn open_recorder(dir: &RunDir, config: &Config) -> Result<Recorder, ViewError> {
+        let path = dir.recording();
+        match Recorder::create(&path, Some(Live::default()), run_card(config)) {
+            Err(error @ ViewError::NoFreePort { .. }) => {
+                say(&format!("warning: {error}; this run is only recorded"));
+                Recorder::create(&path, None, run_card(config))
+            }
+            result => result,
         }
     }
 
