@@ -15,6 +15,8 @@ use std::sync::mpsc::Sender;
 pub const FINISHED: &str = "finished";
 /// What the monitor tells its launcher, before the address that serves the view.
 pub const SERVING: &str = "serving ";
+/// What the monitor tells its launcher when it has the last report of every island.
+pub const CAUGHT_UP: &str = "caught up";
 
 /// A child process, seen from its parent. Dropped, it is killed and waited for.
 pub struct Kin {
