@@ -45,20 +45,17 @@ pub struct Measurement {
 /// # Errors
 /// If the body blows up, how.
 pub fn simulate(creature: &Creature, trial: &Trial) -> Result<Measurement, Outcome> {
-    run(creature, trial, |_, _| {})
+    run(creature, trial, |_, _, _| {})
 }
 
 /// Tries a creature and films it: the same simulation, bit for bit, whether filmed or not. A trial that
 /// blows up ends the film where it did.
-///
-/// # Errors
-/// None: a film of a failure is a film.
 pub fn film(creature: &Creature, trial: &Trial) -> (Result<Measurement, Outcome>, Trajectory) {
     let mut trajectory = Trajectory::new(creature, trial.settle_s);
     let every = trial.steps_in(1.0 / trajectory::FRAMES_PER_S);
-    let result = run(creature, trial, |step, body| {
+    let result = run(creature, trial, |step, body, scene| {
         if step.is_multiple_of(every) {
-            trajectory.push(trial.time_s(step), body.poses());
+            trajectory.push(trial.time_s(step), body.poses(scene));
         }
     });
     (result, trajectory)
@@ -70,65 +67,77 @@ const PATH_SAMPLE_S: f64 = 0.1;
 fn run(
     creature: &Creature,
     trial: &Trial,
-    mut observe: impl FnMut(u32, &View<'_>),
+    observe: impl FnMut(u32, &Body, &Scene),
 ) -> Result<Measurement, Outcome> {
-    let mut scene = Scene::new(trial);
-    let body = Body::build(&mut scene, creature, trial);
-    let mut actuators = Actuators::new(&creature.controller);
-    let guard = Guard::new(&body, &scene, creature);
-    observe(0, &View { body: &body, scene: &scene });
-
-    let control_steps = trial.steps_in(creature.controller.period_s);
+    let mut attempt = Attempt::new(creature, trial, observe);
+    for _ in 0..trial.steps_in_exactly(trial.settle_s) {
+        attempt.advance()?;
+    }
+    let centre_first_m = attempt.centre_of_mass();
     let path_steps = trial.steps_in(PATH_SAMPLE_S);
-    let settle_steps = trial.steps_in_exactly(trial.settle_s);
-    let steps = settle_steps + trial.steps_in_exactly(trial.scored_s);
-
-    let mut root_first_m = body.root_position(&scene);
-    let mut centre_first_m = body.centre_of_mass(&scene);
     let mut path = Path::from(centre_first_m);
     let mut ledger = Ledger::new(trial, path_steps, centre_first_m);
-    for step in 1..=steps {
-        scene.step();
-        guard.check_step(&scene)?;
-        if step == 1 {
-            root_first_m = body.root_position(&scene);
+    let control_steps = trial.steps_in(creature.controller.period_s);
+    let mut actuators = Actuators::new(&creature.controller);
+    for scored in 0..trial.steps_in_exactly(trial.scored_s) {
+        attempt.advance()?;
+        if scored.is_multiple_of(control_steps) {
+            attempt.check()?;
+            actuators.update(&attempt.body, &mut attempt.scene);
         }
-        if step == settle_steps {
-            centre_first_m = body.centre_of_mass(&scene);
-            path = Path::from(centre_first_m);
-            ledger = Ledger::new(trial, path_steps, centre_first_m);
-        }
-        let scored = step.checked_sub(settle_steps + 1);
-        if scored.is_some_and(|scored| scored.is_multiple_of(control_steps)) {
-            guard.check_body(&body, &scene)?;
-            actuators.update(&body, &mut scene);
-        }
-        if scored.is_some_and(|scored| (scored + 1).is_multiple_of(path_steps)) {
-            let centre_m = body.centre_of_mass(&scene);
+        if (scored + 1).is_multiple_of(path_steps) {
+            let centre_m = attempt.centre_of_mass();
             path.extend_to(centre_m);
             ledger.enter(centre_m)?;
         }
-        observe(step, &View { body: &body, scene: &scene });
     }
-    guard.check_body(&body, &scene)?;
+    attempt.check()?;
     Ok(Measurement {
-        root_first_m,
-        root_last_m: body.root_position(&scene),
+        root_first_m: attempt.root_first_m,
+        root_last_m: attempt.body.root_position(&attempt.scene),
         centre_first_m,
-        centre_last_m: body.centre_of_mass(&scene),
+        centre_last_m: attempt.centre_of_mass(),
         path_m: path.length_m,
     })
 }
 
-/// What an observer of a trial sees.
-struct View<'a> {
-    body: &'a Body,
-    scene: &'a Scene,
+/// A trial under way.
+struct Attempt<F> {
+    scene: Scene,
+    body: Body,
+    guard: Guard,
+    step: u32,
+    root_first_m: Vector3<f64>,
+    observe: F,
 }
 
-impl View<'_> {
-    fn poses(&self) -> Vec<Pose> {
-        self.body.poses(self.scene)
+impl<F: FnMut(u32, &Body, &Scene)> Attempt<F> {
+    fn new(creature: &Creature, trial: &Trial, mut observe: F) -> Self {
+        let mut scene = Scene::new(trial);
+        let body = Body::build(&mut scene, creature, trial);
+        let guard = Guard::new(&body, &scene, creature);
+        let root_first_m = body.root_position(&scene);
+        observe(0, &body, &scene);
+        Self { scene, body, guard, step: 0, root_first_m, observe }
+    }
+
+    fn advance(&mut self) -> Result<(), Outcome> {
+        self.scene.step();
+        self.step += 1;
+        self.guard.check_step(&self.scene)?;
+        if self.step == 1 {
+            self.root_first_m = self.body.root_position(&self.scene);
+        }
+        (self.observe)(self.step, &self.body, &self.scene);
+        Ok(())
+    }
+
+    fn check(&self) -> Result<(), Outcome> {
+        self.guard.check_body(&self.body, &self.scene)
+    }
+
+    fn centre_of_mass(&self) -> Vector3<f64> {
+        self.body.centre_of_mass(&self.scene)
     }
 }
 

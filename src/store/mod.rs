@@ -70,12 +70,20 @@ fn codec() -> impl bincode::config::Config {
     bincode::config::standard().with_fixed_int_encoding().with_limit::<BYTES_MAX>()
 }
 
-fn encode<T: Serialize>(value: &T) -> Vec<u8> {
+/// A value as records and checkpoints hold it. What migrates is never encoded; the benches say what that saves.
+///
+/// # Panics
+/// If the value is no plain data, such as a sequence of a length that is not known beforehand.
+pub fn encode<T: Serialize>(value: &T) -> Vec<u8> {
     bincode::serde::encode_to_vec(value, codec())
         .expect("our records are plain data, without maps or cycles")
 }
 
-fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
+/// The value that was encoded.
+///
+/// # Errors
+/// What is wrong with `bytes`, if they are not exactly one value of this type.
+pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
     match bincode::serde::decode_from_slice(bytes, codec()) {
         Ok((value, read)) if read == bytes.len() => Ok(value),
         Ok((_, read)) => Err(format!("{} bytes too many", bytes.len() - read)),

@@ -87,7 +87,7 @@ impl<G: Gene> Exchange<G> {
             return Err(TransportError::Unsendable { reason: Rejection::Island });
         }
         let header = self.limits.batch(outbox).map_err(TransportError::unsendable)?;
-        let genes = outbox.migrants.iter().flat_map(|migrant| migrant.genome.iter().copied());
+        let genes = outbox.migrants.iter().flat_map(|migrant| &migrant.genome);
         let count = outbox.migrants.iter().map(|migrant| migrant.genome.len()).sum();
         let reached = ports::send(&self.outboxes, header, count, genes)?;
         self.wake(&self.out_neighbours);
@@ -161,7 +161,7 @@ impl<G: Gene> Exchange<G> {
         let header = self.limits.report(report, seconds, champion);
         let header = header.map_err(TransportError::unsendable)?;
         let genome = champion.map_or(&[][..], |champion| &champion.genome);
-        ports::send(&self.reports, header, genome.len(), genome.iter().copied())?;
+        ports::send(&self.reports, header, genome.len(), genome.iter())?;
         Ok(())
     }
 

@@ -20,18 +20,18 @@ pub type RequestInlet = Subscriber<Ipc, ResendRequest, ()>;
 
 /// Writes a sample, once, where it will be read, and sends it. Returns how many readers it has reached.
 /// `genes` must yield `count` genes.
-pub fn send<G: Gene, Header: ZeroCopySend + Debug + Default>(
+pub fn send<'a, G: Gene, Header: ZeroCopySend + Debug + Default>(
     outlet: &Outlet<G, Header>,
     header: Header,
     count: usize,
-    mut genes: impl Iterator<Item = G>,
+    mut genes: impl Iterator<Item = &'a G>,
 ) -> Result<usize, TransportError> {
     let mut sample = outlet
         .loan_slice_uninit(count)
         .map_err(|e| TransportError::Memory { cause: e.to_string() })?;
     *sample.user_header_mut() = header;
     let sample =
-        sample.write_from_fn(|_| WireGene(genes.next().expect("as many genes as were counted")));
+        sample.write_from_fn(|_| WireGene(*genes.next().expect("as many genes as were counted")));
     // Sending fails where a reader dies at the same moment. Whom it did not reach asks for it.
     Ok(sample.send().unwrap_or(0))
 }

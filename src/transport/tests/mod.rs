@@ -277,7 +277,7 @@ fn a_malformed_outbox_in_shared_memory_is_rejected_and_does_not_harm_the_next() 
     let genes: Vec<TestGene> = genes.collect();
     let good = plan.limits.batch(&outbox(0, 0)).unwrap();
     for header in [BatchHeader { count: 99, ..good }, good] {
-        ports::send(&outlet, header, genes.len(), genes.iter().copied()).unwrap();
+        ports::send(&outlet, header, genes.len(), genes.iter()).unwrap();
     }
     let received = receiver.receive();
     assert_eq!(
