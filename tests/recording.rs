@@ -1,6 +1,6 @@
 //! What a viewer gets to see is what was scored.
 
-use crate::support::{TINY, World};
+use crate::support::{TINY, World, signal, until};
 use islands::archipelago::Island;
 use islands::creature::{Gene, Profile, Shape};
 use islands::formats::{genome_csv, metrics};
@@ -45,6 +45,24 @@ fn a_recording_holds_the_curves_of_every_island() {
         for curve in ["fitness/mean", "diversity"] {
             assert_eq!(recording.scalars(&format!("/{curve}/{island}")).len(), 4, "{curve}");
         }
+    }
+}
+
+#[test]
+fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
+    let world = World::new();
+    let settings = "--population 6 --generations 6 --genes 2";
+    let run = world.start(&format!("--n 2 --seed 43 --out run --quiet --json {settings}"));
+    let monitor = run.child("monitor");
+    signal(monitor, "STOP");
+    let dir = RunDir::at(world.path("run"));
+    until("the islands have finished", || (0..2).all(|i| dir.checkpoint(i, 6).exists()));
+    signal(monitor, "CONT");
+    let ending = run.wait();
+    assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
+    let recording = Recording::read(&dir.recording());
+    for island in 0..2 {
+        assert_eq!(recording.scalars(&format!("/fitness/mean/{island}")).len(), 7);
     }
 }
 

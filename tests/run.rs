@@ -259,7 +259,7 @@ fn the_death_of_an_island_ends_the_run_with_one_sentence_and_leaves_nothing() {
     wait_for_generations(&world.path("run"), 3);
     let id = run_id(&world.read("run/run.toml"));
     assert!(runs_in_shared_memory().contains(&id));
-    signal(run.island(1), "KILL");
+    signal(run.child("--index=1"), "KILL");
     let ending = run.wait();
     assert_eq!(ending.code, Some(1), "{ending:?}");
     assert_eq!(ending.stdout, "");

@@ -75,10 +75,12 @@ impl World {
         self.command(arguments).output().unwrap().into()
     }
 
-    /// Runs the program to its end, which must be a success, and reads the object that is its last line.
+    /// Runs the program to its end, which must be a success that nothing is to be said about, and reads the
+    /// object that is its last line.
     pub fn json(&self, arguments: &str) -> Value {
         let ending = self.islands(arguments);
-        assert_eq!(ending.code, Some(0), "islands {arguments}: {ending:?}");
+        let is_fine = ending.code == Some(0) && !ending.stderr.contains("warning");
+        assert!(is_fine, "islands {arguments}: {ending:?}");
         ending.json()
     }
 
@@ -173,16 +175,18 @@ impl Running {
         self.0.take().unwrap().wait_with_output().unwrap().into()
     }
 
-    /// The process of one of its islands.
-    pub fn island(&self, index: u32) -> u32 {
-        let wanted = format!("--index={index}");
-        let mut children = children(self.pid()).into_iter();
-        children
-            .find(|pid| {
-                let arguments = fs::read_to_string(format!("/proc/{pid}/cmdline"));
-                arguments.is_ok_and(|line| line.split('\0').any(|argument| argument == wanted))
-            })
-            .unwrap_or_else(|| panic!("there is no island {index}"))
+    /// The process that it has started with this argument, once there is one.
+    pub fn child(&self, argument: &str) -> u32 {
+        let is_it = |pid: &u32| {
+            let arguments = fs::read_to_string(format!("/proc/{pid}/cmdline"));
+            arguments.is_ok_and(|line| line.split('\0').any(|found| found == argument))
+        };
+        let mut child = None;
+        until("there is such a child", || {
+            child = children(self.pid()).into_iter().find(is_it);
+            child.is_some()
+        });
+        child.unwrap()
     }
 }
 

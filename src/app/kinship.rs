@@ -13,10 +13,10 @@ use std::sync::mpsc::Sender;
 
 /// What an island tells its launcher when it has evolved all its generations.
 pub const FINISHED: &str = "finished";
-/// What the monitor tells its launcher when it receives what islands report.
-pub const WATCHING: &str = "watching";
 /// What the monitor tells its launcher, before the address that serves the view.
 pub const SERVING: &str = "serving ";
+/// What the monitor tells its launcher when it has the last report of every island.
+pub const CAUGHT_UP: &str = "caught up";
 
 /// A child process, seen from its parent. Dropped, it is killed and waited for.
 pub struct Kin {

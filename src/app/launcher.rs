@@ -3,7 +3,7 @@
 use super::cli::RunArgs;
 use super::config::Config;
 use super::console::{Stopwatch, print, say};
-use super::kinship::{Ear, FINISHED, Kin, SERVING, WATCHING};
+use super::kinship::{CAUGHT_UP, Ear, FINISHED, Kin, SERVING};
 use super::progress::Progress;
 use super::result::{self, Podium, Summary};
 use super::{Failure, config};
@@ -19,8 +19,8 @@ use std::time::Duration;
 
 /// The launcher looks about so often.
 const LOOK: Duration = Duration::from_millis(20);
-/// A monitor that starts more slowly than the islands evolve is waited for so long.
-const FIRST_LOOK: Duration = Duration::from_secs(30);
+/// Islands that have finished wait for so long until the monitor has their last reports.
+const LAST_LOOK: Duration = Duration::from_secs(30);
 /// The monitor may film what it has not filmed yet for so long after the islands have finished.
 const LAST_REEL: Duration = Duration::from_secs(300);
 /// What takes longer is worth a word to the user.
@@ -86,8 +86,8 @@ struct Run {
     ear: Ear,
     islands: Vec<Kin>,
     monitor: Option<Kin>,
-    /// Whether the monitor receives what the islands report.
-    is_watched: bool,
+    /// Whether the monitor has the last report of every island.
+    monitor_caught_up: bool,
     lines: Receiver<(String, String)>,
     lookout: Lookout<Gene>,
     podium: Podium,
@@ -132,7 +132,7 @@ impl Run {
             ear,
             islands,
             monitor,
-            is_watched: false,
+            monitor_caught_up: false,
             lines,
             lookout,
             progress,
@@ -166,11 +166,12 @@ impl Run {
         self.await_monitor()
     }
 
-    /// Waits until the monitor looks: one that comes when the islands are gone has nothing to film.
+    /// Waits until the monitor has what the islands reported: one that starts more slowly than they evolve
+    /// would find them gone, and have nothing to film.
     fn await_monitor(&mut self) -> Result<(), Failure> {
         let watch = Stopwatch::start();
-        let is_coming = |run: &Self| run.monitor.is_some() && !run.is_watched;
-        while is_coming(self) && watch.elapsed() < FIRST_LOOK && !self.ear.heard_stop() {
+        let is_behind = |run: &Self| run.monitor.is_some() && !run.monitor_caught_up;
+        while is_behind(self) && watch.elapsed() < LAST_LOOK && !self.ear.heard_stop() {
             self.look()?;
             self.miss_monitor();
         }
@@ -190,8 +191,8 @@ impl Run {
         if let Ok((name, line)) = self.lines.recv_timeout(LOOK) {
             if line == FINISHED {
                 self.finished += 1;
-            } else if line == WATCHING {
-                self.is_watched = true;
+            } else if line == CAUGHT_UP {
+                self.monitor_caught_up = true;
             } else if let Some(address) = line.strip_prefix(SERVING) {
                 self.progress.say(&format!("watch it live:  rerun {address}"));
             } else {

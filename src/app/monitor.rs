@@ -26,7 +26,7 @@ pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
 mod watched {
     use super::super::config::Config;
     use super::super::console::say;
-    use super::super::kinship::{Ear, SERVING, WATCHING, tell};
+    use super::super::kinship::{CAUGHT_UP, Ear, SERVING, tell};
     use super::super::{Failure, island};
     use super::MonitorArgs;
     use crate::creature::Gene;
@@ -35,6 +35,7 @@ mod watched {
     use crate::store::RunDir;
     use crate::transport::{Lookout, Sighting};
     use crate::view::{Clip, Live, Pace, Recorder, RunCard, ViewError};
+    use std::collections::BTreeSet;
     use std::time::Duration;
 
     /// The monitor looks about so often.
@@ -53,15 +54,18 @@ mod watched {
         let config = Config::read(&dir.config())?;
         let lookout = Lookout::<Gene>::open(&island::domain(&config)?, &config.archipelago())?;
         let recorder = open_recorder(&dir, &config)?;
-        tell(WATCHING);
         if let Some(address) = recorder.address() {
             tell(&format!("{SERVING}{address}"));
         }
         let mut cinema = Cinema { problem: config.problem(), recorder };
+        let mut evolving: BTreeSet<u32> = (0..config.islands).collect();
         loop {
             let last = ear.heard_stop();
             let sightings = lookout.receive();
             let idle = sightings.is_empty();
+            if crosses_off_the_last(&mut evolving, &sightings, config.generations) {
+                tell(CAUGHT_UP);
+            }
             for sighting in sightings {
                 cinema.show(&sighting)?;
             }
@@ -72,6 +76,18 @@ mod watched {
                 std::thread::sleep(LOOK);
             }
         }
+    }
+
+    /// Crosses off the islands whose last report is here; whether there were some, and none is left.
+    fn crosses_off_the_last(
+        evolving: &mut BTreeSet<u32>,
+        sightings: &[Sighting<Gene>],
+        generations: u32,
+    ) -> bool {
+        let reports = sightings.iter().map(|sighting| sighting.report);
+        let last = reports.filter(|report| report.generation == generations);
+        let crossed = last.filter(|report| evolving.remove(&report.island)).count();
+        crossed > 0 && evolving.is_empty()
     }
 
     /// Records and serves; where no port is free, only records.
