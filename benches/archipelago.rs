@@ -40,7 +40,7 @@ fn main() {
     let (rounds, budget) = if is_trial {
         (1, Budget { creatures: 12, generations: 1 })
     } else {
-        (ROUNDS, Budget { creatures: 96, generations: 4 })
+        (ROUNDS, Budget { creatures: 48, generations: 4 })
     };
     let mut settings: Vec<Setting> = ISLANDS
         .iter()
