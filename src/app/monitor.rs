@@ -34,7 +34,7 @@ mod watched {
     use crate::problems::Locomotion;
     use crate::store::RunDir;
     use crate::transport::{Lookout, Sighting};
-    use crate::view::{Clip, Live, Pace, Recorder, RunCard};
+    use crate::view::{Clip, Live, Pace, Recorder, RunCard, ViewError};
     use std::collections::BTreeSet;
     use std::time::Duration;
 
@@ -53,8 +53,7 @@ mod watched {
         let dir = RunDir::at(&args.dir);
         let config = Config::read(&dir.config())?;
         let lookout = Lookout::<Gene>::open(&island::domain(&config)?, &config.archipelago())?;
-        let card = run_card(&config);
-        let recorder = Recorder::create(&dir.recording(), Some(Live::default()), card)?;
+        let recorder = open_recorder(&dir, &config)?;
         if let Some(address) = recorder.address() {
             tell(&format!("{SERVING}{address}"));
         }
@@ -89,6 +88,18 @@ mod watched {
         let last = reports.filter(|report| report.generation == generations);
         let crossed = last.filter(|report| evolving.remove(&report.island)).count();
         crossed > 0 && evolving.is_empty()
+    }
+
+    /// Records and serves; where no port is free, only records.
+    fn open_recorder(dir: &RunDir, config: &Config) -> Result<Recorder, ViewError> {
+        let path = dir.recording();
+        match Recorder::create(&path, Some(Live::default()), run_card(config)) {
+            Err(error @ ViewError::NoFreePort { .. }) => {
+                say(&format!("warning: {error}; this run is only recorded"));
+                Recorder::create(&path, None, run_card(config))
+            }
+            result => result,
+        }
     }
 
     struct Cinema {

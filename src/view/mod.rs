@@ -66,9 +66,7 @@ pub enum ViewError {
         source: Box<rerun::sink::FileSinkError>,
     },
     /// Every port that was tried is in use.
-    #[error(
-        "no free port from {first} to {last} to serve the live view on; choose another or do not serve"
-    )]
+    #[error("no port from {first} to {last} is free to serve the live view on")]
     NoFreePort {
         /// The first port that was tried.
         first: u16,
