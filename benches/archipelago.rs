@@ -4,8 +4,11 @@
 //! ten times at least, one setting after the other. Here all settings take turns, so that whatever else the
 //! machine does hits all of them, and the median of the rounds counts.
 //!
-//! All runs evolve the same number of creatures in all. An island has at least one thread, so that there are
-//! no runs with fewer threads than islands.
+//! All runs evolve the same number of creatures in all, but only those with equally many islands evolve the
+//! same creatures, and small bodies are tried faster than large ones: so a run's speed-up is over the one with
+//! as many islands and the fewest threads. The processor time of an evaluation says what threads and processes
+//! cost even where others use the machine. An island has at least one thread, so that there are no runs with
+//! fewer threads than islands.
 //!
 //! `cargo bench --bench archipelago`
 
@@ -31,7 +34,10 @@ struct Budget {
 struct Setting {
     islands: usize,
     threads: usize,
+    /// Evaluations a second of each round.
     speeds: Vec<f64>,
+    /// Processor milliseconds an evaluation of each round.
+    costs_ms: Vec<f64>,
 }
 
 fn main() {
@@ -46,15 +52,23 @@ fn main() {
         .iter()
         .flat_map(|&islands| THREADS.iter().map(move |&threads| (islands, threads)))
         .filter(|(islands, threads)| threads >= islands)
-        .map(|(islands, threads)| Setting { islands, threads, speeds: Vec::new() })
+        .map(|(islands, threads)| Setting {
+            islands,
+            threads,
+            speeds: Vec::new(),
+            costs_ms: Vec::new(),
+        })
         .collect();
 
     let mut digests = [const { None }; ISLANDS.len()];
     for _ in 0..rounds {
         for setting in &mut settings {
+            let before_ms = processor_ms_of_children();
             let summary = run(setting.islands, setting.threads, budget);
-            let speed = summary["evaluations_per_second"].as_f64();
-            setting.speeds.push(speed.expect("a summary says the speed"));
+            let number = |name: &str| summary[name].as_f64().expect("a summary has this number");
+            setting.speeds.push(number("evaluations_per_second"));
+            let used_ms = processor_ms_of_children() - before_ms;
+            setting.costs_ms.push(used_ms / number("evaluations"));
             let row = ISLANDS.iter().position(|&islands| islands == setting.islands);
             let first = &mut digests[row.expect("it is one of them")];
             let digest = summary["digest"].clone();
@@ -91,16 +105,30 @@ fn print(settings: &[Setting], Budget { creatures, generations }: Budget) {
         "evaluations/s, {creatures} creatures in all, {generations} generations, seed {SEED}; median of \
          {rounds} interleaved rounds (least–most)\n"
     );
-    println!("| islands | threads | evals/s | least–most | × one thread |");
-    println!("|---|---|---|---|---|");
-    let one = median(&settings[0].speeds);
-    for Setting { islands, threads, speeds } in settings {
+    println!("| islands | threads | evals/s | least–most | × fewest threads | CPU ms/eval |");
+    println!("|---|---|---|---|---|---|");
+    for Setting { islands, threads, speeds, costs_ms } in settings {
         let speed = median(speeds);
         let least = speeds.iter().copied().fold(f64::INFINITY, f64::min);
         let most = speeds.iter().copied().fold(0.0, f64::max);
-        let ratio = speed / one;
-        println!("| {islands} | {threads} | {speed:.1} | {least:.1}–{most:.1} | {ratio:.2} |");
+        let fewest = settings.iter().find(|other| other.islands == *islands);
+        let ratio = speed / median(&fewest.expect("there is this one at least").speeds);
+        let cost_ms = median(costs_ms);
+        println!(
+            "| {islands} | {threads} | {speed:.1} | {least:.1}–{most:.1} | {ratio:.2} | {cost_ms:.1} |"
+        );
     }
+}
+
+/// What children and their children have used of all processors, once they were waited for.
+fn processor_ms_of_children() -> f64 {
+    // Linux counts in hundredths of a second for programs, whatever the kernel's own clock.
+    const TICK_MS: f64 = 10.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").expect("this is Linux");
+    // The second field is a name, and may contain anything but a closing parenthesis at the end.
+    let (_, fields) = stat.rsplit_once(')').expect("the second field is in parentheses");
+    let ticks = fields.split_whitespace().skip(13).take(2).map(|field| field.parse::<f64>());
+    ticks.map(|ticks| ticks.expect("it is a number") * TICK_MS).sum()
 }
 
 fn median(values: &[f64]) -> f64 {
