@@ -111,13 +111,14 @@ fn a_configuration_that_cannot_be_used_is_refused() {
         &world,
         wishes.each_ref().map(String::as_str),
         expect![[r#"
-        cannot use nowhere.toml: No such file or directory (os error 2)
-        cannot use broken.toml: unclosed array, expected `]` (at byte 11)
-        cannot use text.toml: invalid type: string "many", expected usize (at byte 13)
-        population must be from 2 to 100000, not 1"#]],
+            cannot use nowhere.toml: No such file or directory (os error 2); name a file such as a run's run.toml
+            cannot use broken.toml: line 1: unclosed array, expected `]`
+            cannot use text.toml: line 1: invalid type: string "many", expected usize
+            population must be from 2 to 100000, not 1"#]],
     );
     let sentence = world.refusal("--config unknown.toml");
-    let expected = "cannot use unknown.toml: unknown field `popluation`, expected one of `islands`";
+    let expected =
+        "cannot use unknown.toml: line 1: unknown field `popluation`, expected one of `islands`";
     assert!(sentence.starts_with(expected), "{sentence}");
 }
 
@@ -171,7 +172,7 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
             cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
             cannot write the recording good.csv/film.rrd: Failed to create file: Not a directory (os error 20), path: good.csv/film.rrd; choose another file with --out
-            cannot use nowhere/run.toml: No such file or directory (os error 2)"#]],
+            cannot use nowhere/run.toml: No such file or directory (os error 2); name a file such as a run's run.toml"#]],
     );
 }
 

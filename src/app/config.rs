@@ -118,8 +118,9 @@ impl Config {
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let wrong =
             |reason: String| Failure::usage(format!("cannot use {}: {reason}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-        toml::from_str(&text).map_err(|error| wrong(one_line(&error)))
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| wrong(format!("{error}; name a file such as a run's run.toml")))?;
+        toml::from_str(&text).map_err(|error| wrong(one_line(&error, &text)))
     }
 
     /// The file that says the same.
@@ -208,10 +209,10 @@ impl Config {
 }
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.
-fn one_line(error: &toml::de::Error) -> String {
+fn one_line(error: &toml::de::Error, text: &str) -> String {
     let message = error.message().replace('\n', " ");
-    match error.span() {
-        Some(span) => format!("{message} (at byte {})", span.start),
+    match error.span().and_then(|span| text.get(..span.start)) {
+        Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
         None => message,
     }
 }

@@ -37,6 +37,7 @@ impl Task {
                 start: Start::LowestAt(0.1),
                 settle_s: 1.0,
                 scored_s: 8.0,
+                keeps_ledger: true,
             },
             Task::Course => Trial {
                 steps_per_s: 240,
@@ -44,6 +45,8 @@ impl Task {
                 start: Start::RootAt(2.5),
                 settle_s: 0.0,
                 scored_s: 10.0,
+                // The course refuses nobody, and a comparison must not either.
+                keeps_ledger: false,
             },
         }
     }

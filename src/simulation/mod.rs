@@ -88,7 +88,9 @@ fn run(
         if (scored + 1).is_multiple_of(path_steps) {
             let centre_m = attempt.centre_of_mass();
             path.extend_to(centre_m);
-            ledger.enter(centre_m)?;
+            if trial.keeps_ledger {
+                ledger.enter(centre_m)?;
+            }
         }
     }
     attempt.check()?;

@@ -231,6 +231,7 @@ mod tests {
             start: Start::RootAt(10.0),
             settle_s: 0.0,
             scored_s: 4.0,
+            keeps_ledger: true,
         };
         let measured = simulate(&creature, &trial).unwrap();
         assert!((measured.root_last_m - measured.root_first_m).norm() > 0.01, "{measured:?}");

@@ -15,6 +15,8 @@ pub struct Trial {
     pub settle_s: f64,
     /// Time that is scored, in seconds.
     pub scored_s: f64,
+    /// Whether a body that gains momentum out of nothing is refused.
+    pub keeps_ledger: bool,
 }
 
 /// Where a body begins.

@@ -112,6 +112,7 @@ mod tests {
         start: Start::LowestAt(0.0),
         settle_s: 0.0,
         scored_s: 2.0,
+        keeps_ledger: true,
     };
 
     /// Pushes a log that lies on the ground and enters what it does.
