@@ -11,7 +11,7 @@ use std::time::Duration;
 
 /// The last is the most that the default settings build.
 const LINKS: [usize; 6] = [3, 6, 10, 15, 21, 32];
-/// How a body falls and what touches the ground changes the time by a half: so more than one of each size.
+/// Bodies of one size need not take the same time: so more than one of each.
 const BODIES: usize = 3;
 const SEED: u64 = 7;
 const GENES_MAX: u32 = 12;
