@@ -25,7 +25,7 @@ pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
 #[cfg(feature = "view")]
 mod watched {
     use super::super::config::Config;
-    use super::super::console::say;
+    use super::super::console::{print, say};
     use super::super::kinship::{CAUGHT_UP, Ear, SERVING, tell};
     use super::super::{Failure, island};
     use super::MonitorArgs;
@@ -54,8 +54,11 @@ mod watched {
         let config = Config::read(&dir.config())?;
         let lookout = Lookout::<Gene>::open(&island::domain(&config)?, &config.archipelago())?;
         let recorder = open_recorder(&dir, &config)?;
-        if let Some(address) = recorder.address() {
-            tell(&format!("{SERVING}{address}"));
+        let has_launcher = args.parent.is_some();
+        match recorder.address() {
+            Some(address) if has_launcher => tell(&format!("{SERVING}{address}")),
+            Some(address) => print(&format!("watch it live:  rerun {address}")),
+            None => {}
         }
         let mut cinema = Cinema { problem: config.problem(), recorder };
         let mut evolving: BTreeSet<u32> = (0..config.islands).collect();
@@ -63,7 +66,7 @@ mod watched {
             let last = ear.heard_stop();
             let sightings = lookout.receive();
             let idle = sightings.is_empty();
-            if crosses_off_the_last(&mut evolving, &sightings, config.generations) {
+            if crosses_off_the_last(&mut evolving, &sightings, config.generations) && has_launcher {
                 tell(CAUGHT_UP);
             }
             for sighting in sightings {
