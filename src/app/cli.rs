@@ -53,7 +53,7 @@ pub struct RunArgs {
     /// Seed that fixes the result; picked and printed if none is given
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Generations after the random first one [default: 50]
+    /// Generations after the random first one [default: 80]
     #[arg(long, value_name = "G")]
     pub generations: Option<u32>,
     /// Individuals on each island [default: 24]
@@ -82,10 +82,10 @@ pub struct RunArgs {
     /// How many of the best live on unchanged [default: 2]
     #[arg(long, value_name = "E", help_heading = "Genetic algorithm")]
     pub elites: Option<usize>,
-    /// Probability of an offspring to have two parents [default: 0.7]
+    /// Probability of an offspring to have two parents [default: 0.3]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub crossover_rate: Option<f64>,
-    /// Probability of each value of a gene to be changed [default: 0.1]
+    /// Probability of each value of a gene to be changed [default: 0.04]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub point_rate: Option<f64>,
     /// The most by which a value is changed, as a share of its range [default: 0.2]
