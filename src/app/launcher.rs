@@ -8,7 +8,6 @@ use super::progress::Progress;
 use super::result::{self, Podium, Summary};
 use super::{Failure, config};
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Problem};
 use crate::problems::Locomotion;
 use crate::store::{RunDir, atomic};
 use crate::transport::{Domain, Harbour, Lookout};
@@ -296,12 +295,10 @@ fn entropy() -> Result<u64, Failure> {
 }
 
 fn show(summary: &Summary) {
-    let best = Fitness::new(summary.best_fitness);
-    let problem = Config::default().problem();
     print(&format!(
         "best     {}, island {}\nfound in {} evaluations, {:.1} a second\ndigest   {}\nfiles    {}\n\
          film     islands replay {} --task {} --profile {} --out champion.rrd",
-        problem.show(best),
+        summary.best,
         summary.best_island,
         summary.evaluations,
         summary.evaluations_per_second,

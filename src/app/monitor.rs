@@ -156,7 +156,6 @@ mod watched {
                 island,
                 generation,
                 label: format!("gen {generation} · {score}"),
-                fitness: champion.fitness.saturated(),
                 trajectory,
             };
             Ok(self.recorder.champion(&clip)?)

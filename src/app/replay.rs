@@ -42,7 +42,6 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
             island: index,
             generation: 0,
             label: format!("{name} · {score}"),
-            fitness: evaluation.fitness.saturated(),
             trajectory,
         })?;
     }

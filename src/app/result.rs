@@ -5,7 +5,7 @@ use super::config::Config;
 use crate::archipelago::{Digest, Island};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Individual};
+use crate::evolution::{Fitness, Individual, Problem};
 use crate::formats::{genome_csv, metrics, urdf};
 use crate::problems::Locomotion;
 use crate::store::{RunDir, StoreError, atomic, checkpoint};
@@ -20,6 +20,9 @@ pub struct Summary {
     pub digest: String,
     /// The best fitness ever; the most negative number there is if nothing could be scored.
     pub best_fitness: f64,
+    /// The same as people read it.
+    #[serde(skip)]
+    pub best: String,
     /// The file of its genome.
     pub best_genome: PathBuf,
     /// Its island.
@@ -73,14 +76,16 @@ pub fn gather(dir: &RunDir, config: &Config, wall_seconds: f64) -> Result<Summar
             |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
         )
         .expect("a run has at least one island");
-    write_champion(dir, &config.problem(), &best.champion)?;
+    let problem = config.problem();
+    write_champion(dir, &problem, &best.champion)?;
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     let summary = Summary {
         digest: Digest::of(&islands).to_string(),
         best_fitness: best.champion.fitness.saturated(),
+        best: problem.show(best.champion.fitness),
         best_genome: dir.champion_genome(),
         best_island: best.index,
-        unit: "m".to_owned(),
+        unit: problem.unit().to_owned(),
         islands: config.islands,
         seed: config.seed.unwrap_or_default(),
         generations: config.generations,

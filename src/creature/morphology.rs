@@ -168,11 +168,6 @@ impl Morphology {
         });
         reach.fold(0.0, f64::max)
     }
-
-    /// The mass of the whole body in kilograms.
-    pub fn mass_kg(&self) -> f64 {
-        self.links.iter().map(|link| link.mass_kg).sum()
-    }
 }
 
 /// Gives a tree of decoded genes a body.

@@ -1,7 +1,6 @@
 //! The metrics of a run: a row an island and generation, as CSV.
 
 use crate::archipelago::Report;
-use crate::evolution::Fitness;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Write};
 
@@ -49,11 +48,6 @@ impl Row {
             immigrants,
             seconds,
         }
-    }
-
-    /// The best fitness of the row.
-    pub fn best_fitness(&self) -> Fitness {
-        self.best.map_or(Fitness::WORST, Fitness::new)
     }
 }
 

@@ -23,8 +23,6 @@ pub struct Clip {
     pub generation: u32,
     /// What stands above it.
     pub label: String,
-    /// Its fitness.
-    pub fitness: f64,
     /// How it moves.
     pub trajectory: Trajectory,
 }

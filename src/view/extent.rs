@@ -2,6 +2,7 @@
 
 use crate::creature::morphology::Shape;
 use crate::simulation::trajectory::Pose;
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// The camera forgets movement that is shorter than this.
 const CALM_S: f64 = 0.8;
@@ -64,16 +65,7 @@ fn half_diagonal(shape: &Shape) -> f32 {
 
 /// Half the vertical extent of a solid in a pose.
 pub fn half_height(shape: &Shape, pose: &Pose) -> f32 {
-    let [x, y, z, w] = pose.rotation_xyzw;
-    // How far up each of the link's axes points: the last row of the rotation matrix.
-    let up = [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)];
-    match *shape {
-        Shape::Cylinder { radius_m, length_m } => {
-            let level = (1.0 - up[2] * up[2]).max(0.0).sqrt();
-            up[2].abs() * length_m as f32 / 2.0 + level * radius_m as f32
-        }
-        Shape::Cuboid { half_extents_m: h } => {
-            up.iter().zip(h.iter()).map(|(up, &half)| up.abs() * half as f32).sum()
-        }
-    }
+    let [x, y, z, w] = pose.rotation_xyzw.map(f64::from);
+    let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    shape.reach_m(&rotation, &Vector3::z()) as f32
 }

@@ -185,6 +185,6 @@ mod tests {
     fn clip(island: u32, generation: u32) -> Clip {
         let trajectory =
             Trajectory { shapes: vec![], times_s: vec![], poses: vec![], scoring_from_s: 0.0 };
-        Clip { island, generation, label: String::new(), fitness: 0.0, trajectory }
+        Clip { island, generation, label: String::new(), trajectory }
     }
 }

@@ -201,7 +201,7 @@ fn card(islands: u32) -> RunCard {
 
 fn clip(island: u32, generation: u32, trajectory: Trajectory) -> Clip {
     let label = format!("gen {generation} · 1.50 m");
-    Clip { island, generation, label, fitness: 1.5, trajectory }
+    Clip { island, generation, label, trajectory }
 }
 
 fn report(island: u32, generation: u32) -> Report {
