@@ -11,6 +11,7 @@
 //! | floor | module | what it is |
 //! |---|---|---|
 //! | 0 | [`rng`] | an address (seed, island, generation, index, purpose) becomes a stream of random numbers |
+//! |   | [`choice`] | settings that are one of a few, by their names |
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
@@ -49,6 +50,7 @@
 //! println!("{}", Digest::of(&islands));
 //! ```
 
+pub mod choice;
 pub mod rng;
 
 pub mod creature;

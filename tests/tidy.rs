@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The floor of each module: it imports only from lower ones.
-const FLOORS: [(&str, u8); 12] = [
+const FLOORS: [(&str, u8); 13] = [
+    ("choice", 0),
     ("rng", 0),
     ("evolution", 1),
     ("creature", 1),

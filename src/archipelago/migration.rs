@@ -7,6 +7,7 @@
 use crate::evolution::population::{Population, ranking};
 use crate::evolution::{Individual, Problem};
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
 
 /// The most individuals that one outbox can carry.
 pub const MIGRANTS_MAX: usize = 32;
@@ -69,13 +70,18 @@ pub fn immigrate<P: Problem>(
     let mut outboxes: Vec<&Outbox<P::Gene>> = outboxes.iter().collect();
     outboxes.sort_by_key(|outbox| outbox.island);
     for migrant in outboxes.into_iter().flat_map(|outbox| &outbox.migrants) {
-        let Some(&worst) = ranking(&population).last() else { break };
+        let Some(worst) = worst(&population) else { break };
         let known = population.iter().any(|resident| resident.genome == migrant.genome);
         if !known && migrant.fitness > population[worst].fitness {
             population[worst] = migrant.clone();
         }
     }
     population
+}
+
+/// The worst individual, the last of equal ones.
+fn worst<G>(population: &[Individual<G>]) -> Option<usize> {
+    (0..population.len()).min_by_key(|&i| (population[i].fitness, Reverse(i)))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Who sends migrants to whom.
 
+use crate::choice;
 use serde::{Deserialize, Serialize};
 
 /// The directed graph of migration.
@@ -42,10 +43,7 @@ impl std::str::FromStr for Topology {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Topology::ALL.into_iter().find(|topology| topology.to_string() == text).ok_or_else(|| {
-            let known = Topology::ALL.map(|topology| topology.to_string()).join(", ");
-            format!("unknown topology “{text}”: choose one of {known}")
-        })
+        choice::named("topology", &Topology::ALL, text)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the numbers of a gene mean: three dialects of one encoding.
 
+use crate::choice;
 use serde::{Deserialize, Serialize};
 
 /// The most links that profile `coursework` builds; it never cuts a body, but refuses larger ones.
@@ -52,9 +53,6 @@ impl std::str::FromStr for Profile {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Profile::ALL.into_iter().find(|profile| profile.to_string() == text).ok_or_else(|| {
-            let known = Profile::ALL.map(|profile| profile.to_string()).join(", ");
-            format!("unknown profile “{text}”: choose one of {known}")
-        })
+        choice::named("profile", &Profile::ALL, text)
     }
 }

@@ -1,5 +1,6 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
+use crate::choice;
 use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile};
 use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
@@ -75,10 +76,7 @@ impl std::str::FromStr for Task {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        Task::ALL.into_iter().find(|task| task.to_string() == text).ok_or_else(|| {
-            let known = Task::ALL.map(|task| task.to_string()).join(", ");
-            format!("unknown task “{text}”: choose one of {known}")
-        })
+        choice::named("task", &Task::ALL, text)
     }
 }
 
