@@ -24,10 +24,10 @@ pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
 
 #[cfg(feature = "view")]
 mod watched {
+    use super::super::Failure;
     use super::super::config::Config;
     use super::super::console::{print, say};
-    use super::super::kinship::{CAUGHT_UP, Ear, SERVING, tell};
-    use super::super::{Failure, island};
+    use super::super::kinship::{Ear, SERVING, tell};
     use super::MonitorArgs;
     use crate::creature::Gene;
     use crate::evolution::{Individual, Problem};
@@ -52,7 +52,7 @@ mod watched {
         let _ = rustix::process::nice(NICENESS);
         let dir = RunDir::at(&args.dir);
         let config = Config::read(&dir.config())?;
-        let lookout = Lookout::<Gene>::open(&island::domain(&config)?, &config.archipelago())?;
+        let lookout = Lookout::<Gene>::open(&config.domain()?, &config.archipelago())?;
         let recorder = open_recorder(&dir, &config)?;
         let has_launcher = args.parent.is_some();
         match recorder.address() {
@@ -66,9 +66,7 @@ mod watched {
             let last = ear.heard_stop();
             let sightings = lookout.receive();
             let idle = sightings.is_empty();
-            if crosses_off_the_last(&mut evolving, &sightings, config.generations) && has_launcher {
-                tell(CAUGHT_UP);
-            }
+            crosses_off_the_last(&mut evolving, &sightings, config.generations);
             for sighting in sightings {
                 cinema.show(&sighting)?;
             }

@@ -59,21 +59,26 @@ impl<G: Gene> Island<G> {
         require(self.index == index && index < archipelago.islands, Misfit::Index)?;
         require(population.len() == archipelago.strategy.population, Misfit::Size)?;
         for individual in population.iter().chain([champion]) {
-            self.can_hold(individual, archipelago)?;
+            possible(individual, archipelago, self.generation)?;
         }
         require(population.iter().all(|i| i.fitness <= champion.fitness), Misfit::Champion)?;
         let ended = effort.outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
         require(ended == Some(effort.evaluations), Misfit::Effort)
     }
+}
 
-    fn can_hold(&self, individual: &Individual<G>, run: &Archipelago) -> Result<(), Misfit> {
-        let Individual { id, parents, genome, .. } = individual;
-        let lengths = 1..=run.strategy.variation.genes_max;
-        let exists = |id: &Id| id.island < run.islands && id.generation <= self.generation;
-        require(lengths.contains(&genome.len()), Misfit::Length)?;
-        require(genome.iter().all(Gene::is_valid), Misfit::Gene)?;
-        require(parents.iter().flatten().chain([id]).all(exists), Misfit::Lineage)
-    }
+/// Whether there can be such an individual in a run by the end of `generation`.
+pub(super) fn possible<G: Gene>(
+    individual: &Individual<G>,
+    run: &Archipelago,
+    generation: u32,
+) -> Result<(), Misfit> {
+    let Individual { id, parents, genome, .. } = individual;
+    let lengths = 1..=run.strategy.variation.genes_max;
+    let exists = |id: &Id| id.island < run.islands && id.generation <= generation;
+    require(lengths.contains(&genome.len()), Misfit::Length)?;
+    require(genome.iter().all(Gene::is_valid), Misfit::Gene)?;
+    require(parents.iter().flatten().chain([id]).all(exists), Misfit::Lineage)
 }
 
 fn require(condition: bool, otherwise: Misfit) -> Result<(), Misfit> {
