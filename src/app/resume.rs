@@ -98,7 +98,9 @@ fn newest_checkpoints(dir: &RunDir, config: &Config) -> Result<Vec<Checkpoint<Ge
                     newest.push(checkpoint);
                     break;
                 }
-                Err(error @ StoreError::Version { .. }) => return Err(error.into()),
+                Err(error @ StoreError::Version { .. }) => {
+                    return Err(Failure::usage(error.to_string()));
+                }
                 Err(_) => {}
             }
         }
