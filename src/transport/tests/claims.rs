@@ -5,7 +5,7 @@ use super::super::domain::{claim_name, folder_name, prefix};
 use super::super::remains::{self, Remains};
 use super::super::shared_memory::SharedMemory;
 use super::*;
-use std::os::unix::fs::{PermissionsExt, symlink};
+use std::os::unix::fs::{PermissionsExt, chown, symlink};
 use std::path::PathBuf;
 use tempfile::TempDir;
 
@@ -121,6 +121,19 @@ fn nothing_of_another_users_is_touched() {
     assert_eq!((stranger.objects(RUN).len(), stranger.remove_stillborn(RUN)), (0, 0));
     stranger.remove_objects(RUN).unwrap();
     assert_eq!(place.left().len(), 4);
+}
+
+#[test]
+fn a_folder_that_was_given_away_is_kept() {
+    let place = Place::new();
+    place.crash();
+    // Only who may do everything can give something away, and it is he who could remove it.
+    if chown(place.root(), Some(rustix::process::geteuid().as_raw() + 1), None).is_err() {
+        return;
+    }
+    assert_eq!(place.only().folder, None);
+    assert_eq!(place.only().remove().unwrap(), Removal::Done);
+    assert_eq!(place.left(), [place.root()]);
 }
 
 #[test]
