@@ -91,9 +91,9 @@ fn a_folder_that_cannot_be_used_is_refused_and_left_as_it_was() {
         &world,
         wishes,
         expect![[r#"
-        cannot make the folder plain/champions: Not a directory (os error 20); choose another folder with --out
-        cannot make the folder plain/run/champions: Not a directory (os error 20); choose another folder with --out
-        cannot use full: it is not empty; choose another folder with --out"#]],
+            cannot make the folder plain: File exists (os error 17); choose another folder with --out
+            cannot make the folder plain/run: Not a directory (os error 20); choose another folder with --out
+            cannot use full: it is not empty; choose another folder with --out"#]],
     );
     assert_eq!(world.files(), ["full/precious", "plain"]);
 }

@@ -1,7 +1,6 @@
 //! What a viewer gets to see is what was scored.
 
 use crate::support::{TINY, World, signal, until};
-use islands::archipelago::Island;
 use islands::creature::{Gene, Profile, Shape};
 use islands::formats::{genome_csv, metrics};
 use islands::problems::{Locomotion, Task};
@@ -24,7 +23,7 @@ fn a_recording_shows_each_islands_champion_as_it_was_simulated() {
     let recording = Recording::read(&world.path("run/recording.rrd"));
     for index in 0..2 {
         let dir = RunDir::at(world.path("run"));
-        let island: Island<Gene> = checkpoint::load(&dir.checkpoint(index, 3)).unwrap();
+        let island = checkpoint::load::<Gene>(&dir.checkpoint(index, 3)).unwrap().island;
         let (evaluation, film) = WALK.film(&island.champion.genome).unwrap();
         assert_eq!(evaluation.fitness, island.champion.fitness);
         recording.assert_ends_with(index, &film, Task::Walk);

@@ -2,10 +2,9 @@
 
 use crate::support::{Ending, Running, TINY, World, run_id, runs_in_shared_memory, signal, until};
 use islands::app::config::Config;
-use islands::archipelago::Island;
 use islands::creature::Gene;
 use islands::formats::metrics;
-use islands::store::{RunDir, checkpoint};
+use islands::store::{Checkpoint, Entry, RecordLog, RunDir, checkpoint};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -49,20 +48,13 @@ fn a_run_leaves_the_files_of_its_folder_and_no_others() {
     ];
     expected.extend(cfg!(feature = "view").then(|| dir.recording()));
     for island in 0..2 {
-        expected.extend([
-            dir.champions(island),
-            dir.migrations(island),
-            dir.island_metrics(island),
-        ]);
-        expected.push(dir.checkpoint(island, 3));
+        expected.extend([dir.champions(island), dir.migrations(island), dir.reports(island)]);
+        expected.extend([dir.checkpoint(island, 2), dir.checkpoint(island, 3)]);
     }
-    let checkpoints = |file: &&String| file.contains("/checkpoints/") && file.ends_with(".ckpt");
     let files: BTreeSet<String> = world.files().into_iter().collect();
     let expected: BTreeSet<String> =
         expected.iter().map(|path| path.to_str().unwrap().to_owned()).collect();
-    assert_eq!(expected.difference(&files).count(), 0, "{files:?}");
-    let others: Vec<_> = files.difference(&expected).filter(|file| !checkpoints(file)).collect();
-    assert_eq!(others, Vec::<&String>::new());
+    assert_eq!(files, expected);
     world.assert_left_nothing();
 }
 
@@ -243,10 +235,10 @@ fn a_run_that_is_interrupted_keeps_what_it_recorded_and_leaves_nothing_else() {
     assert_eq!(ending.stderr.lines().next_back(), Some(said));
     let dir = RunDir::at(world.path("run"));
     for island in 0..2 {
-        let rows = metrics::read(std::fs::File::open(dir.island_metrics(island)).unwrap()).unwrap();
-        let last = rows.last().unwrap().generation;
-        let state: Island<Gene> = checkpoint::load(&dir.checkpoint(island, last)).unwrap();
-        assert_eq!(state.generation, last);
+        let entries = RecordLog::<Entry>::read(&dir.reports(island)).unwrap().records;
+        let last = entries.last().unwrap().report.generation;
+        let saved: Checkpoint<Gene> = checkpoint::load(&dir.checkpoint(island, last)).unwrap();
+        assert_eq!(saved.island.generation, last);
     }
     assert!(!dir.summary().exists());
     world.assert_left_nothing();
@@ -272,9 +264,7 @@ fn the_death_of_an_island_ends_the_run_with_one_sentence_and_leaves_nothing() {
 /// Waits until so many islands of a run have all evolved a generation.
 fn wait_for_generations(run: &Path, islands: u32) {
     let dir = RunDir::at(run);
-    let lines = |island| {
-        let rows = std::fs::read_to_string(dir.island_metrics(island)).unwrap_or_default();
-        rows.lines().count()
-    };
-    until("every island has evolved", || (0..islands).all(|island| lines(island) > 2));
+    let generations =
+        |island| RecordLog::<Entry>::read(&dir.reports(island)).map_or(0, |log| log.records.len());
+    until("every island has evolved", || (0..islands).all(|island| generations(island) > 1));
 }

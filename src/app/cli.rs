@@ -106,6 +106,9 @@ pub struct RunArgs {
     /// Exchanges by which immigrants come later, so that no island waits [default: 1]
     #[arg(long, value_name = "L", help_heading = "Migration")]
     pub migration_lag: Option<u32>,
+    /// Generations between two checkpoints of an island: what a crash costs at most [default: 1]
+    #[arg(long, value_name = "G", help_heading = "Running")]
+    pub checkpoint_interval: Option<u32>,
     /// Threads of all islands together, at least one each; the result does not depend on it
     /// [default: all cores]
     #[arg(long, value_name = "T", help_heading = "Running")]
@@ -151,6 +154,7 @@ impl RunArgs {
             migration_interval: self.migration_interval.unwrap_or(config.migration_interval),
             migrants: self.migrants.unwrap_or(config.migrants),
             migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
+            checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
             threads: self.threads.or(config.threads),
             launch: None,
         }
@@ -306,6 +310,8 @@ mod tests {
             "--migrants",
             "9",
             "--migration-lag",
+            "9",
+            "--checkpoint-interval",
             "9",
             "--threads",
             "9",

@@ -16,6 +16,8 @@ pub const SEED_MAX: u64 = i64::MAX as u64;
 pub const POPULATION_MAX: usize = 100_000;
 /// The longest genome that may be asked for, in genes.
 pub const GENES_MAX: usize = 1_000;
+/// The most genes that the genomes of an island may have together: its checkpoint must be readable.
+pub const GENES_OF_ISLAND_MAX: usize = 5_000_000;
 /// The largest body that may be asked for, in links.
 pub const LINKS_MAX: usize = 512;
 
@@ -64,6 +66,9 @@ pub struct Config {
     pub migrants: usize,
     /// Epochs by which immigrants are older than they could be, so that no island waits.
     pub migration_lag: u32,
+    /// Generations between two checkpoints of an island; its first and last state are always saved. The result
+    /// does not depend on it.
+    pub checkpoint_interval: u32,
     /// Threads of all islands together, at least one each; as many as there are cores if none is said. The result
     /// does not depend on it.
     pub threads: Option<usize>,
@@ -104,6 +109,7 @@ impl Default for Config {
             migration_interval: 5,
             migrants: 2,
             migration_lag: 1,
+            checkpoint_interval: 1,
             threads: None,
             launch: None,
         }
@@ -152,7 +158,16 @@ impl Config {
         within("grow-rate", self.grow_rate, 0.0, 1.0)?;
         within("migration-interval", f64::from(self.migration_interval), 1.0, 1e9)?;
         within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
+        within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
         within("generations", f64::from(self.generations), 0.0, 1e9)?;
+        let genes = self.population.saturating_mul(self.max_genes);
+        if genes > GENES_OF_ISLAND_MAX {
+            return Err(Failure::usage(format!(
+                "a population of {} with max-genes {} may have {genes} genes: an island holds {GENES_OF_ISLAND_MAX} \
+                 at most",
+                self.population, self.max_genes
+            )));
+        }
         let migrants_max = MIGRANTS_MAX.min(self.population);
         if self.migrants > migrants_max {
             return Err(Failure::usage(format!(
@@ -168,6 +183,18 @@ impl Config {
             Some(0) => Err(Failure::usage("threads must be at least 1".to_owned())),
             _ => Ok(()),
         }
+    }
+
+    /// The settings that decide what evolves, as TOML: all but how long and how it is run. States that were
+    /// saved under other ones, or by another version, are of no use.
+    pub fn settings(&self) -> String {
+        let mut settings =
+            toml::Table::try_from(self).expect("a checked configuration is plain data");
+        for free in ["generations", "checkpoint-interval", "threads", "launch"] {
+            settings.remove(free);
+        }
+        settings.insert("version".to_owned(), env!("CARGO_PKG_VERSION").into());
+        settings.to_string()
     }
 
     /// What decides the result of the run, but for the problem. A seed that was not picked yet is 0.

@@ -6,12 +6,10 @@ use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, tell};
 use crate::archipelago::island::{Step, genesis, step};
-use crate::archipelago::{Archipelago, Inbox, Outbox};
-use crate::evolution::{Individual, Problem};
-use crate::formats::metrics;
-use crate::store::{Journal, RecordLog, RunDir, StoreError, checkpoint};
+use crate::archipelago::{Archipelago, Inbox, Island, Outbox};
+use crate::evolution::Problem;
+use crate::store::{Logbook, RunDir};
 use crate::transport::{Domain, Exchange, TICK};
-use std::fs::File;
 use std::time::Duration;
 
 /// Without an outbox for so long, an island asks for it again.
@@ -32,11 +30,14 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
         .num_threads(args.threads)
         .build_global()
         .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let records = Records::open(&dir, args.index)?;
+    let restored = Logbook::open(&dir, &archipelago, args.index, &config.settings())?;
+    for warning in &restored.warnings {
+        say(&format!("warning: {warning}"));
+    }
     let inbox = Inbox::new(archipelago.in_neighbours(args.index), 0);
     let problem = config.problem();
-    let mut shore = Shore { exchange, inbox, records, ear };
-    evolve(&problem, &archipelago, args.index, config.generations, &dir, &mut shore)
+    let mut shore = Shore { exchange, inbox, logbook: restored.logbook, ear };
+    evolve(&problem, &archipelago, args.index, config.generations, &mut shore, restored.island)
 }
 
 /// The shared memory of a run.
@@ -51,13 +52,18 @@ fn evolve<P: Problem>(
     archipelago: &Archipelago,
     index: u32,
     generations: u32,
-    dir: &RunDir,
     shore: &mut Shore<P>,
+    restored: Option<Island<P::Gene>>,
 ) -> Result<(), Failure> {
     let watch = Stopwatch::start();
-    let first = genesis(problem, archipelago, index);
-    shore.record(&first, watch)?;
-    let mut island = first.island;
+    let mut island = match restored {
+        Some(island) => island,
+        None => {
+            let first = genesis(problem, archipelago, index);
+            shore.record(&first, watch)?;
+            first.island
+        }
+    };
     while island.generation < generations {
         let watch = Stopwatch::start();
         let epoch = archipelago.migration.immigration(island.generation + 1);
@@ -67,7 +73,6 @@ fn evolve<P: Problem>(
         island = next.island;
         shore.answer()?;
     }
-    checkpoint::save(&dir.checkpoint(index, island.generation), &island)?;
     if island.generation == generations {
         tell(FINISHED);
     }
@@ -78,7 +83,7 @@ fn evolve<P: Problem>(
 struct Shore<P: Problem> {
     exchange: Exchange<P::Gene>,
     inbox: Inbox<P::Gene>,
-    records: Records<P>,
+    logbook: Logbook<P::Gene>,
     ear: Ear,
 }
 
@@ -126,8 +131,12 @@ impl<P: Problem> Shore<P> {
     /// Sends again what a neighbour asks for.
     fn answer(&mut self) -> Result<(), Failure> {
         if let Some(epoch) = self.exchange.requests() {
-            for outbox in self.records.journal.since(epoch)? {
-                self.exchange.publish(&outbox)?;
+            for epoch in epoch..self.logbook.epochs() {
+                let Some(outbox) = self.logbook.outbox(epoch)? else { break };
+                // Those that nobody has room for are asked for again.
+                if self.exchange.publish(&outbox)? == 0 {
+                    break;
+                }
             }
         }
         Ok(())
@@ -137,11 +146,11 @@ impl<P: Problem> Shore<P> {
     fn record(&mut self, step: &Step<P::Gene>, watch: Stopwatch) -> Result<(), Failure> {
         let seconds = watch.seconds();
         let champion = step.new_champion.then_some(&step.island.champion);
-        self.records.record(step, champion, seconds)?;
+        self.logbook.record(step, seconds)?;
         if let Some(outbox) = &step.outbox {
-            self.records.journal.append(outbox)?;
             self.exchange.publish(outbox)?;
         }
+        self.logbook.save(&step.island)?;
         self.exchange.report(&step.report, seconds, champion)?;
         Ok(())
     }
@@ -153,49 +162,5 @@ impl<P: Problem> Shore<P> {
             self.exchange.wait(TICK)?;
         }
         Ok(())
-    }
-}
-
-/// The files that an island alone writes.
-struct Records<P: Problem> {
-    journal: Journal<P::Gene>,
-    champions: RecordLog<(u32, Individual<P::Gene>)>,
-    metrics: File,
-    metrics_path: std::path::PathBuf,
-}
-
-impl<P: Problem> Records<P> {
-    fn open(dir: &RunDir, island: u32) -> Result<Self, Failure> {
-        let metrics_path = dir.island_metrics(island);
-        let metrics = File::create(&metrics_path).map_err(|source| StoreError::Io {
-            action: "write",
-            path: metrics_path.clone(),
-            source,
-        })?;
-        Ok(Self {
-            journal: Journal::open(&dir.migrations(island))?,
-            champions: RecordLog::open(&dir.champions(island))?,
-            metrics,
-            metrics_path,
-        })
-    }
-
-    fn record(
-        &mut self,
-        step: &Step<P::Gene>,
-        champion: Option<&Individual<P::Gene>>,
-        seconds: f64,
-    ) -> Result<(), Failure> {
-        let generation = step.report.generation;
-        if let Some(champion) = champion {
-            self.champions.append(&(generation, champion.clone()))?;
-        }
-        let row = metrics::Row::new(&step.report, seconds);
-        metrics::write(&[row], generation == 0, &self.metrics)
-            .and_then(|()| self.metrics.sync_data())
-            .map_err(|source| {
-                let path = self.metrics_path.clone();
-                StoreError::Io { action: "append to", path, source }.into()
-            })
     }
 }

@@ -9,7 +9,7 @@ use super::result::{self, Podium, Summary};
 use super::{Failure, config};
 use crate::creature::Gene;
 use crate::problems::Locomotion;
-use crate::store::{RunDir, atomic};
+use crate::store::RunDir;
 use crate::transport::{Domain, Harbour, Lookout};
 use rand::TryRng;
 use std::path::{Path, PathBuf};
@@ -39,8 +39,8 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let harbour = Harbour::<Gene>::create(&domain, &config.archipelago())?;
     let dir = run_dir(args.out.as_deref(), &config);
     let elsewhere = |error| Failure::usage(format!("{error}; choose another folder with --out"));
-    dir.create(config.islands).map_err(elsewhere)?;
-    atomic::write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
+    let claim = dir.create(config.islands).map_err(elsewhere)?;
+    dir.write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
 
     let mut run = Run::start(args, config, dir, &domain, ear)?;
     let watched = run.watch_over();
@@ -49,6 +49,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let summary = watched.and_then(|()| run.gather());
     drop(run);
     harbour.close()?;
+    drop(claim);
     let summary = summary?;
     if args.json {
         let json = serde_json::to_string(&summary);
@@ -92,7 +93,6 @@ struct Run {
     podium: Podium,
     progress: Progress,
     watch: Stopwatch,
-    wall_seconds: f64,
     finished: usize,
 }
 
@@ -124,7 +124,6 @@ impl Run {
         Ok(Self {
             problem: config.problem(),
             podium: Podium::new(),
-            wall_seconds: 0.0,
             finished: 0,
             config,
             dir,
@@ -161,7 +160,6 @@ impl Run {
                 }
             }
         }
-        self.wall_seconds = self.watch.seconds();
         self.await_monitor()
     }
 
@@ -208,7 +206,7 @@ impl Run {
     }
 
     fn gather(&self) -> Result<Summary, Failure> {
-        result::gather(&self.dir, &self.config, self.wall_seconds)
+        result::gather(&self.dir, &self.config)
     }
 
     /// Asks everybody to stop, and waits for them; who does not is killed when it is dropped.

@@ -8,9 +8,8 @@ use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Individual, Problem};
 use crate::formats::{genome_csv, metrics, urdf};
 use crate::problems::Locomotion;
-use crate::store::{RunDir, StoreError, atomic, checkpoint};
+use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint};
 use serde::Serialize;
-use std::fs::File;
 use std::path::PathBuf;
 
 /// The result of a run, as `summary.json` and `--json` say it.
@@ -49,7 +48,7 @@ pub struct Summary {
     pub failures: u64,
     /// Evaluations a second, all islands together.
     pub evaluations_per_second: f64,
-    /// How long the islands took, in seconds.
+    /// How long the slowest island evolved, in seconds. What a run was down for is not counted.
     pub wall_seconds: f64,
     /// The run's folder.
     pub run_dir: PathBuf,
@@ -65,11 +64,17 @@ pub struct Summary {
 ///
 /// # Errors
 /// If an island's files are missing or damaged, or ours cannot be written.
-pub fn gather(dir: &RunDir, config: &Config, wall_seconds: f64) -> Result<Summary, Failure> {
+pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
     let islands: Vec<Island<Gene>> = (0..config.islands)
         .map(|island| checkpoint::load(&dir.checkpoint(island, config.generations)))
+        .map(|checkpoint| checkpoint.map(|checkpoint| checkpoint.island))
         .collect::<Result<_, _>>()?;
-    merge_metrics(dir, config.islands)?;
+    let reports: Vec<Vec<Entry>> = (0..config.islands)
+        .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
+        .collect::<Result<_, StoreError>>()?;
+    merge_metrics(dir, &reports)?;
+    let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
+    let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
     let best = islands
         .iter()
         .reduce(
@@ -101,7 +106,7 @@ pub fn gather(dir: &RunDir, config: &Config, wall_seconds: f64) -> Result<Summar
         recording: Some(dir.recording()).filter(|path| path.exists()),
         version: env!("CARGO_PKG_VERSION"),
     };
-    atomic::write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
+    dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)
 }
 
@@ -114,10 +119,10 @@ pub fn write_champion(
     problem: &Locomotion,
     champion: &Individual<Gene>,
 ) -> Result<(), Failure> {
-    atomic::write(&dir.champion_genome(), |out| genome_csv::write(&champion.genome, out))?;
+    dir.write(&dir.champion_genome(), |out| genome_csv::write(&champion.genome, out))?;
     // What cannot be expressed has no body to write, and was never scored.
     let Ok(creature) = problem.express(&champion.genome) else { return Ok(()) };
-    atomic::write(&dir.champion_body(), |out| {
+    dir.write(&dir.champion_body(), |out| {
         urdf::write(&creature.morphology, &creature.controller, "champion", out)
     })?;
     Ok(())
@@ -154,14 +159,11 @@ impl Podium {
 }
 
 /// The rows of all islands in one file, ordered by generation, then island.
-fn merge_metrics(dir: &RunDir, islands: u32) -> Result<(), Failure> {
-    let mut rows = Vec::new();
-    for island in 0..islands {
-        let path = dir.island_metrics(island);
-        let read = File::open(&path).and_then(metrics::read);
-        rows.extend(read.map_err(|source| StoreError::Io { action: "read", path, source })?);
-    }
+fn merge_metrics(dir: &RunDir, reports: &[Vec<Entry>]) -> Result<(), Failure> {
+    let entries = reports.iter().flatten();
+    let mut rows: Vec<_> =
+        entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
     rows.sort_by_key(|row| (row.generation, row.island));
-    atomic::write(&dir.metrics(), |out| metrics::write(&rows, true, out))?;
+    dir.write(&dir.metrics(), |out| metrics::write(&rows, true, out))?;
     Ok(())
 }

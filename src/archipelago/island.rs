@@ -24,7 +24,7 @@ pub struct Island<G> {
 }
 
 /// What one generation of one island was like: a row of the metrics.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// The island.
     pub island: u32,

@@ -3,6 +3,7 @@
 use super::fitness::Fitness;
 use super::individual::Individual;
 use super::problem::Problem;
+use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 
 /// The individuals of one island, in a fixed order: index and order are part of a run's digest.
@@ -21,7 +22,7 @@ pub fn best<G>(population: &[Individual<G>]) -> Option<&Individual<G>> {
 }
 
 /// What a row of the metrics says of a population.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// The best fitness.
     pub best: Fitness,
@@ -36,7 +37,7 @@ pub struct Statistics {
 }
 
 /// A histogram of the scores of a population; failures are in none of its bars.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// Where the first bar begins: the smallest score.
     pub low: f64,

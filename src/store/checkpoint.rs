@@ -3,47 +3,73 @@
 //! Layout: the magic bytes, the format version (u32), the length of the body (u64), the body (bincode), and
 //! a checksum over all before it. Integers are little-endian.
 
-use super::{BYTES_MAX, StoreError, atomic, checksum, decode, encode};
+use super::{BYTES_MAX, StoreError, atomic, checksum, decode, encode, file};
 use crate::archipelago::Island;
 use crate::evolution::Gene;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 const MAGIC: [u8; 8] = *b"islands\n";
 const VERSION: u32 = 1;
 
-/// Saves an island, durably and whole or not at all.
+/// What is saved of an island.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "G: Gene")]
+pub struct Checkpoint<G> {
+    /// The settings that it evolves under, as TOML: a state is of use only under the same ones.
+    pub settings: String,
+    /// Its state between two generations.
+    pub island: Island<G>,
+}
+
+/// Saves an island, durably and whole or not at all. `scratch` is a folder of the same file system.
 ///
 /// # Errors
 /// If the disk is full or gone.
-pub fn save<G: Gene>(path: &Path, island: &Island<G>) -> Result<(), StoreError> {
-    let body = encode(island);
-    let mut bytes = Vec::with_capacity(body.len() + 28);
-    bytes.extend(MAGIC);
-    bytes.extend(VERSION.to_le_bytes());
-    bytes.extend((body.len() as u64).to_le_bytes());
-    bytes.extend(&body);
-    bytes.extend(checksum(&bytes));
-    atomic::write(path, |out| out.write_all(&bytes))
+pub fn save<G: Gene>(
+    scratch: &Path,
+    path: &Path,
+    checkpoint: &Checkpoint<G>,
+) -> Result<(), StoreError> {
+    let bytes = to_bytes(checkpoint);
+    atomic::write_by_way_of(scratch, path, |out| out.write_all(&bytes))
 }
 
 /// Loads what [`save`] wrote.
 ///
 /// # Errors
 /// If the file cannot be read, is of an unknown version, or is not to the last bit what was saved.
-pub fn load<G: Gene>(path: &Path) -> Result<Island<G>, StoreError> {
-    let bytes = std::fs::read(path).map_err(StoreError::io("read", path))?;
+pub fn load<G: Gene>(path: &Path) -> Result<Checkpoint<G>, StoreError> {
+    from_bytes(&file::read(path)?, path)
+}
+
+/// The file as bytes.
+fn to_bytes<G: Gene>(checkpoint: &Checkpoint<G>) -> Vec<u8> {
+    let body = encode(checkpoint);
+    let mut bytes = Vec::with_capacity(body.len() + 28);
+    bytes.extend(MAGIC);
+    bytes.extend(VERSION.to_le_bytes());
+    bytes.extend((body.len() as u64).to_le_bytes());
+    bytes.extend(&body);
+    bytes.extend(checksum(&bytes));
+    bytes
+}
+
+fn from_bytes<G: Gene>(bytes: &[u8], path: &Path) -> Result<Checkpoint<G>, StoreError> {
     let damaged = |reason: &str| StoreError::damaged(path, reason);
     let rest = bytes.strip_prefix(&MAGIC).ok_or_else(|| damaged("it is no checkpoint"))?;
     let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it is cut off"))?;
-    let found = u32::from_le_bytes(*version);
-    if found != VERSION {
-        return Err(StoreError::Version { path: path.to_owned(), found, known: VERSION });
-    }
     let (length, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it is cut off"))?;
+    let found = u32::from_le_bytes(*version);
     let length = usize::try_from(u64::from_le_bytes(*length)).unwrap_or(BYTES_MAX);
     let (body, sum) = rest.split_at_checked(length).ok_or_else(|| damaged("it is cut off"))?;
+    // Of every version the checksum is in the same place: a flipped bit of the version is damage, not another
+    // version.
     if sum != checksum(&bytes[..bytes.len() - sum.len()]) {
         return Err(damaged("its checksum is wrong"));
+    }
+    if found != VERSION {
+        return Err(StoreError::Version { path: path.to_owned(), found, known: VERSION });
     }
     decode(body).map_err(|reason| StoreError::damaged(path, reason))
 }
@@ -55,7 +81,7 @@ mod tests {
     use crate::evolution::generation::Effort;
     use crate::evolution::{Fitness, Id, Individual};
 
-    fn island() -> Island<Gene> {
+    fn checkpoint() -> Checkpoint<Gene> {
         let individual = Individual {
             id: Id { island: 1, generation: 2, index: 3 },
             parents: [Some(Id { island: 0, generation: 1, index: 9 }), None],
@@ -63,29 +89,44 @@ mod tests {
             fitness: Fitness::new(1.5),
         };
         let failed = Individual { fitness: Fitness::WORST, ..individual.clone() };
-        Island {
+        let island = Island {
             index: 1,
             generation: 2,
             population: vec![individual.clone(), failed],
             champion: individual,
             effort: Effort::default(),
-        }
+        };
+        Checkpoint { settings: "seed = 7\n".to_owned(), island }
     }
 
     #[test]
     fn a_checkpoint_comes_back_bit_for_bit_and_notices_every_flipped_or_missing_byte() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("2.ckpt");
-        save(&path, &island()).expect("the folder is writable");
-        assert_eq!(load::<Gene>(&path).expect("it is whole"), island());
+        save(folder.path(), &path, &checkpoint()).expect("the folder is writable");
+        assert_eq!(load::<Gene>(&path).expect("it is whole"), checkpoint());
         let whole = std::fs::read(&path).expect("it is there");
+        let is_damaged = |bytes: &[u8]| {
+            matches!(from_bytes::<Gene>(bytes, &path), Err(StoreError::Damaged { .. }))
+        };
         for at in 0..whole.len() {
             let mut flipped = whole.clone();
             flipped[at] ^= 0x40;
-            std::fs::write(&path, &flipped).expect("it is writable");
-            assert!(load::<Gene>(&path).is_err(), "byte {at} flipped");
-            std::fs::write(&path, &whole[..at]).expect("it is writable");
-            assert!(load::<Gene>(&path).is_err(), "cut at {at}");
+            assert!(is_damaged(&flipped), "byte {at} flipped");
+            assert!(is_damaged(&whole[..at]), "cut at {at}");
         }
+        assert!(is_damaged(&[&whole[..], &[0]].concat()), "a byte too many");
+    }
+
+    #[test]
+    fn another_format_version_is_named() {
+        let mut bytes = to_bytes(&checkpoint());
+        let sum = bytes.len() - 8;
+        bytes[8..12].copy_from_slice(&9_u32.to_le_bytes());
+        let right = checksum(&bytes[..sum]);
+        bytes[sum..].copy_from_slice(&right);
+        let error = from_bytes::<Gene>(&bytes, Path::new("2.ckpt")).expect_err("it is of another");
+        let said = "2.ckpt has format version 9, and this program reads version 1";
+        assert_eq!(error.to_string(), said);
     }
 }

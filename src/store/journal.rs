@@ -6,7 +6,7 @@ use crate::archipelago::Outbox;
 use crate::evolution::Gene;
 use std::path::{Path, PathBuf};
 
-/// A journal, open for appending.
+/// A journal, open for appending: record k is the outbox of epoch k.
 #[derive(Debug)]
 pub struct Journal<G> {
     path: PathBuf,
@@ -22,21 +22,77 @@ impl<G: Gene> Journal<G> {
         Ok(Self { path: path.to_owned(), log: RecordLog::open(path)? })
     }
 
-    /// Appends an outbox and makes it durable: do this before it is sent.
-    ///
-    /// # Errors
-    /// If the disk is full or gone.
-    pub fn append(&mut self, outbox: &Outbox<G>) -> Result<(), StoreError> {
-        self.log.append(outbox)
+    /// The epochs that it has: those below this one.
+    pub fn epochs(&self) -> u32 {
+        // An epoch is a u32, and so is the number of records.
+        self.log.len() as u32
     }
 
-    /// The outboxes of `epoch` and after it, in the order of their epochs.
+    /// Appends an outbox and makes it durable: do this before it is sent. An island that evolves an epoch
+    /// once more, after its death, must come to the same outbox, which is then not appended again.
     ///
     /// # Errors
-    /// If the file cannot be read.
-    pub fn since(&self, epoch: u32) -> Result<Vec<Outbox<G>>, StoreError> {
-        let mut outboxes = RecordLog::<Outbox<G>>::read(&self.path)?;
-        outboxes.retain(|outbox| outbox.epoch >= epoch);
-        Ok(outboxes)
+    /// If the disk is full or gone, or the same epoch was another one before: then the island cannot be
+    /// trusted, and neither can those who took that outbox in.
+    pub fn append(&mut self, outbox: &Outbox<G>) -> Result<(), StoreError> {
+        let epoch = outbox.epoch as usize;
+        if epoch == self.log.len() {
+            return self.log.append(outbox);
+        }
+        let damaged = |reason| StoreError::damaged(&self.path, reason);
+        match self.log.get(epoch)? {
+            Some(before) if before == *outbox => Ok(()),
+            Some(_) => Err(damaged(format!(
+                "epoch {epoch} came out otherwise when it was evolved again: this machine or this build does \
+                 not compute the same"
+            ))),
+            None => Err(damaged(format!("epochs {} to {epoch} are missing", self.log.len()))),
+        }
+    }
+
+    /// The outbox of an epoch, if it was sent.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not ours.
+    pub fn outbox(&self, epoch: u32) -> Result<Option<Outbox<G>>, StoreError> {
+        let outbox = self.log.get(epoch as usize)?;
+        if outbox.as_ref().is_some_and(|outbox| outbox.epoch != epoch) {
+            return Err(StoreError::damaged(
+                &self.path,
+                format!("epoch {epoch} is not in its place"),
+            ));
+        }
+        Ok(outbox)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outbox(epoch: u32, migrants: usize) -> Outbox<crate::creature::Gene> {
+        let migrant = crate::evolution::Individual {
+            id: crate::evolution::Id { island: 0, generation: epoch, index: 0 },
+            parents: [None; 2],
+            genome: vec![crate::creature::Gene([0.5; 17])],
+            fitness: crate::evolution::Fitness::new(1.0),
+        };
+        Outbox { island: 0, epoch, migrants: vec![migrant; migrants] }
+    }
+
+    #[test]
+    fn an_epoch_that_is_evolved_again_must_be_the_same_and_is_kept_once() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("journal");
+        let mut journal = Journal::open(&path).expect("the folder is writable");
+        for epoch in [0, 1, 0, 1, 2] {
+            journal.append(&outbox(epoch, 1)).expect("it is the same");
+        }
+        assert_eq!(journal.epochs(), 3);
+        let other = journal.append(&outbox(1, 2)).expect_err("it is another").to_string();
+        assert!(other.contains("epoch 1 came out otherwise"), "{other}");
+        assert!(journal.append(&outbox(9, 1)).is_err(), "there would be a hole");
+        assert_eq!(journal.outbox(2).expect("it is readable"), Some(outbox(2, 1)));
+        assert_eq!(journal.outbox(3).expect("it is readable"), None);
     }
 }

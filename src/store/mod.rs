@@ -1,20 +1,28 @@
 //! What a run leaves on disk, so that nothing is lost.
 //!
-//! [`run_dir`] says where everything lies; [`atomic`] writes files that are there whole or not at all;
-//! [`record_log`] appends records, each with its checksum, and is what an island's [`journal`] and champion log
-//! are made of; [`checkpoint`] keeps an island's whole state.
+//! [`run_dir`] says where everything lies, and whose it is; [`file`] opens what may be anything; [`atomic`]
+//! writes files that are there whole or not at all; [`record_log`] appends records, each with its checksum, and
+//! is what an island's [`journal`] and its logs of champions and generations are made of; [`checkpoint`] is an
+//! island's whole state, of which [`checkpoints`] keeps the newest two. A [`Logbook`] is all of it together, and
+//! what an island begins with after its death.
 //!
 //! Architecture invariant: this alone imports bincode. What a file says is believed only after its checksum.
 
 pub mod atomic;
 pub mod checkpoint;
+pub mod checkpoints;
+pub mod file;
 pub mod journal;
+pub mod logbook;
 pub mod record_log;
 pub mod run_dir;
 
+pub use checkpoint::Checkpoint;
+pub use checkpoints::Checkpoints;
 pub use journal::Journal;
-pub use record_log::RecordLog;
-pub use run_dir::RunDir;
+pub use logbook::{Champion, Entry, Logbook, Restored};
+pub use record_log::{RecordLog, Tail};
+pub use run_dir::{Claim, RunDir};
 
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};
@@ -39,6 +47,18 @@ pub enum StoreError {
         path: PathBuf,
         /// What is wrong with it.
         reason: String,
+    },
+    /// A checkpoint was saved under other settings.
+    #[error("{} was saved by a run with other settings, or by another version", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Another process runs this run.
+    #[error("the run in {} is under way in another process", path.display())]
+    UnderWay {
+        /// The folder.
+        path: PathBuf,
     },
     /// A file was written by a version that this one does not know.
     #[error("{} has format version {found}, and this program reads version {known}", path.display())]

@@ -1,23 +1,36 @@
-//! Where everything of a run lies.
+//! Where everything of a run lies, and whose it is.
 
-use super::StoreError;
+use super::{StoreError, atomic};
+use std::fs::{DirBuilder, File, TryLockError};
+use std::io::Write;
+use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 
 /// The folder of one run:
 ///
 /// ```text
 /// run.toml                                the complete configuration
+/// run.log                                 what happened: starts, deaths, restarts, warnings
 /// metrics.csv                             a row an island and generation
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
 /// summary.json                            digest, best fitness, evaluations, throughput
 /// recording.rrd                           the run as a film
 /// champions/island-<i>.log                every champion of an island
+/// reports/island-<i>.log                  what every generation of an island was like
 /// migrations/island-<i>.log               every outbox that an island sent
-/// metrics/island-<i>.csv                  an island's rows of metrics.csv, as it goes
-/// checkpoints/island-<i>/<generation>.ckpt   an island's state
+/// checkpoints/island-<i>/<generation>.ckpt   an island's state: the newest two
+/// .partial/                               what is not whole yet, while a launcher is at work
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RunDir(PathBuf);
+
+/// The right to write in a run's folder, for one launcher at a time, until it is dropped or its process ends.
+#[derive(Debug)]
+pub struct Claim {
+    dir: RunDir,
+    // Held open: the lock on the folder itself.
+    _folder: File,
+}
 
 impl RunDir {
     /// The run in this folder, which need not exist.
@@ -25,22 +38,67 @@ impl RunDir {
         Self(path.into())
     }
 
-    /// Makes the folder and those in it. It may exist, but only empty.
+    /// Makes the folder and those in it, for this user only, and claims it. It may exist, but only empty.
     ///
     /// # Errors
-    /// If it cannot be made or has something in it.
-    pub fn create(&self, islands: u32) -> Result<(), StoreError> {
-        let occupied = std::fs::read_dir(&self.0).is_ok_and(|mut entries| entries.next().is_some());
-        if occupied {
+    /// If it cannot be made, has something in it or is another launcher's.
+    pub fn create(&self, islands: u32) -> Result<Claim, StoreError> {
+        private().create(&self.0).map_err(StoreError::io("make the folder", &self.0))?;
+        let claim = self.claim()?;
+        let mut entries = std::fs::read_dir(&self.0).map_err(StoreError::io("read", &self.0))?;
+        if entries.next().is_some() {
             let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
         }
-        let checkpoints = (0..islands).map(|island| self.checkpoints(island));
-        let folders = ["champions", "migrations", "metrics"].map(|name| self.0.join(name));
-        for folder in folders.into_iter().chain(checkpoints) {
-            std::fs::create_dir_all(&folder).map_err(StoreError::io("make the folder", &folder))?;
+        self.make_folders(islands)?;
+        Ok(claim)
+    }
+
+    /// Claims a run that exists, and makes those of its folders that are missing.
+    ///
+    /// # Errors
+    /// If there is no run, another launcher has it, or it has links for folders, which may lead out of it.
+    pub fn reopen(&self, islands: u32) -> Result<Claim, StoreError> {
+        let claim = self.claim()?;
+        self.make_folders(islands)?;
+        claim.sweep();
+        Ok(claim)
+    }
+
+    /// Whether a launcher has claimed it.
+    ///
+    /// # Errors
+    /// If there is no such folder.
+    pub fn is_under_way(&self) -> Result<bool, StoreError> {
+        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
+        Ok(matches!(folder.try_lock_shared(), Err(TryLockError::WouldBlock)))
+    }
+
+    fn claim(&self) -> Result<Claim, StoreError> {
+        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
+        match folder.try_lock() {
+            Ok(()) => Ok(Claim { dir: self.clone(), _folder: folder }),
+            Err(TryLockError::WouldBlock) => Err(StoreError::UnderWay { path: self.0.clone() }),
+            Err(TryLockError::Error(source)) => Err(StoreError::io("lock", &self.0)(source)),
         }
-        Ok(())
+    }
+
+    fn make_folders(&self, islands: u32) -> Result<(), StoreError> {
+        let folders = ["champions", "reports", "migrations", "checkpoints"].map(|f| self.0.join(f));
+        let checkpoints = (0..islands).map(|island| self.checkpoints(island));
+        folders.into_iter().chain([self.partial()]).chain(checkpoints).try_for_each(|f| make(&f))
+    }
+
+    /// Writes a file of the run, durably and whole or not at all.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn write(
+        &self,
+        path: &Path,
+        fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+    ) -> Result<(), StoreError> {
+        atomic::write_by_way_of(&self.partial(), path, fill)
     }
 
     /// The folder itself.
@@ -51,6 +109,11 @@ impl RunDir {
     /// The configuration.
     pub fn config(&self) -> PathBuf {
         self.0.join("run.toml")
+    }
+
+    /// What happened.
+    pub fn log(&self) -> PathBuf {
+        self.0.join("run.log")
     }
 
     /// The metrics of all islands.
@@ -83,14 +146,14 @@ impl RunDir {
         self.0.join("champions").join(format!("island-{island}.log"))
     }
 
+    /// An island's generations.
+    pub fn reports(&self, island: u32) -> PathBuf {
+        self.0.join("reports").join(format!("island-{island}.log"))
+    }
+
     /// An island's journal.
     pub fn migrations(&self, island: u32) -> PathBuf {
         self.0.join("migrations").join(format!("island-{island}.log"))
-    }
-
-    /// An island's metrics.
-    pub fn island_metrics(&self, island: u32) -> PathBuf {
-        self.0.join("metrics").join(format!("island-{island}.csv"))
     }
 
     /// The folder of an island's checkpoints; nothing else lies there.
@@ -101,5 +164,46 @@ impl RunDir {
     /// An island's checkpoint after a generation.
     pub fn checkpoint(&self, island: u32, generation: u32) -> PathBuf {
         self.checkpoints(island).join(format!("{generation}.ckpt"))
+    }
+
+    /// The folder of files that are not whole yet.
+    pub fn partial(&self) -> PathBuf {
+        self.0.join(".partial")
+    }
+}
+
+impl Claim {
+    /// Removes what processes were writing when they were killed. All of them must have ended.
+    fn sweep(&self) {
+        let leftovers = std::fs::read_dir(self.dir.partial()).into_iter().flatten().flatten();
+        for leftover in leftovers {
+            // What cannot be removed is in nobody's way.
+            let _ = std::fs::remove_file(leftover.path());
+        }
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        self.sweep();
+        let _ = std::fs::remove_dir(self.dir.partial());
+    }
+}
+
+fn private() -> DirBuilder {
+    let mut builder = DirBuilder::new();
+    builder.recursive(true).mode(0o700);
+    builder
+}
+
+/// Makes a folder of a run; it may exist, but not as a link.
+fn make(folder: &Path) -> Result<(), StoreError> {
+    private().create(folder).map_err(StoreError::io("make the folder", folder))?;
+    let status = std::fs::symlink_metadata(folder).map_err(StoreError::io("open", folder))?;
+    match status.is_dir() {
+        true => Ok(()),
+        false => {
+            Err(StoreError::damaged(folder, "it is a link, and may lead out of the run's folder"))
+        }
     }
 }

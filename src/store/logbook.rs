@@ -1,0 +1,176 @@
+//! All that an island leaves on disk, and how it finds its way back from there.
+//!
+//! The order of writing is what makes any moment a good one to die: first a generation's champion and report
+//! and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a
+//! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same.
+
+use super::checkpoint::Checkpoint;
+use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
+use crate::archipelago::{Archipelago, Island, Outbox, Report, Step};
+use crate::evolution::{Gene, Individual};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// A champion of an island, better than all before it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "G: Gene")]
+pub struct Champion<G> {
+    /// The generation in which it became the champion.
+    pub generation: u32,
+    /// The champion.
+    pub individual: Individual<G>,
+}
+
+/// A generation of an island.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Entry {
+    /// What it was like.
+    pub report: Report,
+    /// Wall seconds that it took, waiting included: all in an island's files that the seed does not fix.
+    pub seconds: f64,
+}
+
+/// An island's files, open for writing; nobody else writes them.
+#[derive(Debug)]
+pub struct Logbook<G> {
+    settings: String,
+    checkpoints: Checkpoints,
+    journal: Journal<G>,
+    champions: RecordLog<Champion<G>>,
+    reports: RecordLog<Entry>,
+}
+
+/// What an island begins with.
+#[derive(Debug)]
+pub struct Restored<G> {
+    /// Its files, cut back to where it begins.
+    pub logbook: Logbook<G>,
+    /// The state that it goes on from; none if it begins from the seed.
+    pub island: Option<Island<G>>,
+    /// What was damaged, a sentence each.
+    pub warnings: Vec<String>,
+}
+
+impl<G: Gene> Logbook<G> {
+    /// Opens the files of island `index` of the run in `dir` and finds the newest state that is whole and that
+    /// the logs know all about. Without one the island begins from the seed, and comes to the same.
+    ///
+    /// # Errors
+    /// If a file cannot be opened, or a checkpoint is of another version or of other settings.
+    pub fn open(
+        dir: &RunDir,
+        archipelago: &Archipelago,
+        index: u32,
+        settings: &str,
+    ) -> Result<Restored<G>, StoreError> {
+        let mut logbook = Self {
+            settings: settings.to_owned(),
+            checkpoints: Checkpoints::of(dir, index),
+            journal: Journal::open(&dir.migrations(index))?,
+            champions: RecordLog::open(&dir.champions(index))?,
+            reports: RecordLog::open(&dir.reports(index))?,
+        };
+        let (island, warnings) = logbook.newest_state(archipelago)?;
+        logbook.cut_back_to(island.as_ref().map(|island| island.generation))?;
+        Ok(Restored { logbook, island, warnings })
+    }
+
+    /// Records a generation, and journals the outbox that it sends, which may be sent only then.
+    ///
+    /// # Errors
+    /// If the disk is full or gone, or an epoch that is evolved again comes out otherwise.
+    pub fn record(&mut self, step: &Step<G>, seconds: f64) -> Result<(), StoreError> {
+        let generation = step.report.generation;
+        if step.new_champion {
+            let individual = step.island.champion.clone();
+            self.champions.append(&Champion { generation, individual })?;
+        }
+        self.reports.append(&Entry { report: step.report, seconds })?;
+        step.outbox.iter().try_for_each(|outbox| self.journal.append(outbox))
+    }
+
+    /// Saves a state whose generation was recorded.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn save(&self, island: &Island<G>) -> Result<(), StoreError> {
+        let (settings, island) = (self.settings.clone(), island.clone());
+        self.checkpoints.save(&Checkpoint { settings, island })
+    }
+
+    /// The epochs that were sent so far: those below this one.
+    pub fn epochs(&self) -> u32 {
+        self.journal.epochs()
+    }
+
+    /// What was sent at the end of an epoch.
+    ///
+    /// # Errors
+    /// If the journal cannot be read.
+    pub fn outbox(&self, epoch: u32) -> Result<Option<Outbox<G>>, StoreError> {
+        self.journal.outbox(epoch)
+    }
+
+    /// The newest state that is sound, and what is wrong with those that are not.
+    fn newest_state(
+        &self,
+        archipelago: &Archipelago,
+    ) -> Result<(Option<Island<G>>, Vec<String>), StoreError> {
+        let mut warnings = Vec::new();
+        for (path, checkpoint) in self.checkpoints.load()? {
+            let island = checkpoint.and_then(|found| self.sound(&path, found, archipelago));
+            match island {
+                Ok(island) => return Ok((Some(island), warnings)),
+                Err(error @ (StoreError::Version { .. } | StoreError::Foreign { .. })) => {
+                    return Err(error);
+                }
+                Err(error) => warnings.push(error.to_string()),
+            }
+        }
+        // Who died over its first generation has a report of it and no checkpoint: nothing is lost.
+        if !warnings.is_empty() || self.reports.len() > 1 {
+            warnings.push("no checkpoint is of use: it starts again from the seed".to_owned());
+        }
+        Ok((None, warnings))
+    }
+
+    /// The state of a checkpoint, if it is one of this island and the logs know all that led to it.
+    fn sound(
+        &self,
+        path: &Path,
+        checkpoint: Checkpoint<G>,
+        archipelago: &Archipelago,
+    ) -> Result<Island<G>, StoreError> {
+        let Checkpoint { settings, island } = checkpoint;
+        if settings != self.settings {
+            return Err(StoreError::Foreign { path: path.to_owned() });
+        }
+        let damaged = |reason: String| StoreError::damaged(path, reason);
+        let generation = island.generation;
+        let lacks = |log: &str| {
+            Err(damaged(format!(
+                "it is whole, but the island's {log} do not reach generation {generation}"
+            )))
+        };
+        if self.reports.len() <= generation as usize {
+            return lacks("reports");
+        }
+        if self.journal.epochs() < generation / archipelago.migration.interval {
+            return lacks("migrations");
+        }
+        let champion = self.champions.last_that(|champion| champion.generation <= generation)?;
+        match champion {
+            Some((_, champion)) if champion.individual == island.champion => Ok(island),
+            _ => lacks("champions"),
+        }
+    }
+
+    /// Cuts off what was recorded after a generation, or everything but the journal: what was sent was sent,
+    /// and will come out the same.
+    fn cut_back_to(&mut self, generation: Option<u32>) -> Result<(), StoreError> {
+        let is_kept = |of: u32| generation.is_some_and(|generation| of <= generation);
+        let champions = self.champions.last_that(|champion| is_kept(champion.generation))?;
+        self.champions.truncate(champions.map_or(0, |(last, _)| last + 1))?;
+        self.reports.truncate(generation.map_or(0, |generation| generation as usize + 1))
+    }
+}
