@@ -5,6 +5,7 @@ use crate::creature::Profile;
 use crate::evolution::Selection;
 use crate::problems::Task;
 use clap::{Args, Parser, Subcommand};
+use std::net::IpAddr;
 use std::path::PathBuf;
 
 /// Evolve virtual creatures on every core, reproducibly to the last bit, and watch them learn to walk.
@@ -37,7 +38,7 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Film genomes for the Rerun viewer
     Replay(ReplayArgs),
-    /// Record and serve a run that is under way; `run` starts one by itself
+    /// Record and serve a run, under way or over; `run` starts one by itself
     Monitor(MonitorArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
@@ -227,9 +228,13 @@ pub struct ReplayArgs {
 /// Watching.
 #[derive(Debug, Args)]
 pub struct MonitorArgs {
-    /// Folder of a run that is under way
+    /// Folder of a run, under way or over
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
+    /// Address to serve the live view on. Anything but 127.0.0.1 lets everybody who can reach it watch the run,
+    /// and show something else to the others who watch: there is no password
+    #[arg(long, value_name = "IP", default_value = "127.0.0.1")]
+    pub view_address: IpAddr,
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
     pub parent: Option<i32>,

@@ -14,6 +14,7 @@ pub struct Draft {
     path: PathBuf,
     /// Where it is made; none once it is in its place.
     partial: Option<TempPath>,
+    file: File,
 }
 
 impl Draft {
@@ -41,8 +42,9 @@ impl Draft {
         let failed = |source| ViewError::Create { path: path.to_owned(), source };
         let name = path.file_name().ok_or_else(|| failed(Error::other("it names no file")))?;
         let partial = partial(&name.to_string_lossy());
-        let made = check_replaceable(path).and_then(|()| make(&partial)).map_err(failed)?;
-        Ok(Self { path: path.to_owned(), partial: Some(made) })
+        let made = check_replaceable(path).and_then(|()| make(&partial));
+        let (file, partial) = made.map_err(failed)?;
+        Ok(Self { path: path.to_owned(), partial: Some(partial), file })
     }
 
     /// The file that it is for.
@@ -50,9 +52,12 @@ impl Draft {
         &self.path
     }
 
-    /// Where it lies.
-    pub fn place(&self) -> &Path {
-        self.partial.as_deref().unwrap_or(&self.path)
+    /// The file, open for writing, wherever it is put.
+    ///
+    /// # Errors
+    /// If the process has too many files open.
+    pub fn file(&self) -> std::result::Result<File, ViewError> {
+        self.file.try_clone().map_err(|source| self.failed(source))
     }
 
     /// Puts it in its place, at once and durably, if it is not there. Whoever has it open writes on in it.
@@ -61,10 +66,14 @@ impl Draft {
     /// If the file system refuses; what was in its place is still there.
     pub fn publish(&mut self) -> std::result::Result<(), ViewError> {
         let Some(partial) = self.partial.take() else { return Ok(()) };
-        let failed = |source| ViewError::Create { path: self.path.clone(), source };
-        File::open(&partial).and_then(|file| file.sync_all()).map_err(failed)?;
-        partial.persist(&self.path).map_err(|error| failed(error.error))?;
-        File::open(folder_of(&self.path)).and_then(|folder| folder.sync_all()).map_err(failed)
+        self.file.sync_all().map_err(|source| self.failed(source))?;
+        partial.persist(&self.path).map_err(|error| self.failed(error.error))?;
+        let synced = File::open(folder_of(&self.path)).and_then(|folder| folder.sync_all());
+        synced.map_err(|source| self.failed(source))
+    }
+
+    pub(super) fn failed(&self, source: Error) -> ViewError {
+        ViewError::Create { path: self.path.clone(), source }
     }
 }
 
@@ -80,12 +89,12 @@ fn check_replaceable(path: &Path) -> Result<()> {
 
 /// Makes an empty file for its owner alone. What lies there is never written to: it may be a link that leads
 /// elsewhere.
-fn make(path: &Path) -> Result<TempPath> {
+fn make(path: &Path) -> Result<(File, TempPath)> {
     if std::fs::symlink_metadata(path).is_ok_and(|old| old.is_file() || old.is_symlink()) {
         std::fs::remove_file(path)?;
     }
-    OpenOptions::new().write(true).create_new(true).mode(0o600).open(path)?;
-    TempPath::try_from_path(path)
+    let file = OpenOptions::new().write(true).create_new(true).mode(0o600).open(path)?;
+    Ok((file, TempPath::try_from_path(path)?))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -95,6 +104,7 @@ fn folder_of(path: &Path) -> &Path {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Write;
     use std::os::unix::fs::{MetadataExt, symlink};
 
     #[test]
@@ -104,13 +114,11 @@ mod tests {
         std::fs::write(&secret, "as it was").unwrap();
         symlink(&secret, folder.path().join("run.rrd.partial")).unwrap();
         let mut draft = Draft::within(folder.path(), &path).unwrap();
-        let status = std::fs::symlink_metadata(draft.place()).unwrap();
-        assert!(status.is_file());
+        let status = draft.file().unwrap().metadata().unwrap();
         assert_eq!((status.mode() & 0o777, status.len()), (0o600, 0));
-        std::fs::write(draft.place(), "new").unwrap();
+        draft.file().unwrap().write_all(b"new").unwrap();
         symlink(&secret, &path).unwrap();
         draft.publish().unwrap();
-        assert_eq!(draft.place(), path);
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
         assert!(std::fs::symlink_metadata(&path).unwrap().is_file());
         assert_eq!(std::fs::read(&secret).unwrap(), b"as it was");

@@ -78,3 +78,62 @@ fn claim(port: u16) -> Option<UnixDatagram> {
     let name = SocketAddr::from_abstract_name(format!("{APPLICATION}-live-{port}")).ok()?;
     UnixDatagram::bind_addr(&name).ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_recording_is_served_on_the_address_that_was_asked_for_and_on_no_other() {
+        for (address, bound, told) in [
+            ("127.0.0.1", "0100007F", "127.0.0.1"),
+            ("127.0.0.3", "0300007F", "127.0.0.3"),
+            ("0.0.0.0", "00000000", "127.0.0.1"),
+        ] {
+            let live = Live { address: address.parse().unwrap(), ..Live::default() };
+            let (_sink, server) = serve(live).unwrap();
+            let told = format!("rerun+http://{told}:");
+            let port = server.address.strip_prefix(&told).and_then(|p| p.strip_suffix("/proxy"));
+            let port = port.unwrap_or_else(|| panic!("{}", server.address)).parse().unwrap();
+            assert_bound(port, bound);
+        }
+        let default = serve(Live::default()).unwrap().1.address;
+        assert!(default.starts_with("rerun+http://127.0.0.1:"), "{default}");
+    }
+
+    #[test]
+    fn an_address_of_another_machine_is_an_error_that_names_it() {
+        // Of the blocks that are for documentation.
+        for address in ["192.0.2.77", "2001:db8::77"] {
+            let live = Live { address: address.parse().unwrap(), ..Live::default() };
+            let error = serve(live).err().unwrap().to_string();
+            assert!(error.contains(address), "{error}");
+        }
+    }
+
+    /// Asserts that a port comes to be listened to on this address, in the kernel's hexadecimal, and on no other.
+    fn assert_bound(port: u16, address: &str) {
+        let mut found = Vec::new();
+        for _ in 0..500 {
+            found = listeners(port);
+            if found == [address] {
+                return;
+            }
+            // A server opens its port a while later, and one that had it before closes it a while later.
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        panic!("port {port} is bound to {found:?}, not {address}");
+    }
+
+    fn listeners(port: u16) -> Vec<String> {
+        // A row is a number, the local address and port, the remote ones, and the state: here, to listen.
+        const LISTEN: &str = "0A";
+        let ending = format!(":{port:04X}");
+        let sockets = ["/proc/net/tcp", "/proc/net/tcp6"].map(std::fs::read_to_string);
+        let sockets = sockets.map(Result::unwrap_or_default).concat();
+        let rows = sockets.lines().map(|line| line.split_whitespace().collect::<Vec<_>>());
+        let listening = rows.filter(|row| row.get(3) == Some(&LISTEN));
+        listening.filter_map(|row| row[1].strip_suffix(&ending).map(str::to_owned)).collect()
+    }
+}

@@ -36,6 +36,7 @@ pub mod card;
 pub mod clip;
 pub mod draft;
 mod extent;
+mod file;
 pub mod film;
 pub mod live;
 pub mod palette;

@@ -2,13 +2,14 @@
 
 use super::blueprint::{self, Audience};
 use super::card::RunCard;
+use super::file::RrdFile;
 use super::film::Film;
 use super::live::{self, Live, Server};
 use super::{APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
 use crate::archipelago::island::Report;
 use crate::evolution::Spread;
 use crate::evolution::population::SPREAD_BARS;
-use rerun::sink::{FileSink, LogSink};
+use rerun::sink::LogSink;
 use rerun::{ApplicationId, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, TextLog};
 
 /// A bar of a histogram is at least so wide, in the unit of fitness: equal scores need a bar too.
@@ -19,7 +20,7 @@ pub struct Recorder {
     stream: RecordingStream,
     film: Film,
     server: Option<Server>,
-    // Last: what is removed is no longer written to.
+    file: RrdFile,
     draft: Draft,
 }
 
@@ -30,13 +31,11 @@ impl Recorder {
     /// If the draft cannot be written, or the recording not be served where it was wanted.
     pub fn create(draft: Draft, live: Option<Live>, card: RunCard) -> Result<Self, ViewError> {
         let application = ApplicationId::from(APPLICATION);
-        let file = FileSink::new(draft.place()).map_err(|error| {
-            let source = std::io::Error::other(error);
-            ViewError::Create { path: draft.path().to_owned(), source }
-        })?;
+        let file = RrdFile::new(draft.file()?).map_err(|source| draft.failed(source))?;
         let (sink, server) = live.map(live::serve).transpose()?.unzip();
 
-        let mut sinks: Vec<(Audience, Box<dyn LogSink>)> = vec![(Audience::File, Box::new(file))];
+        let mut sinks: Vec<(Audience, Box<dyn LogSink>)> =
+            vec![(Audience::File, Box::new(file.clone()))];
         sinks.extend(sink.map(|sink| (Audience::Live, Box::new(sink) as Box<dyn LogSink>)));
         // Rerun's switch RERUN=off turns everything off, and it cannot build a blueprint then.
         let on = rerun::decide_logging_enabled(true);
@@ -51,7 +50,7 @@ impl Recorder {
         stream.set_log_tick_enabled(false);
         scenery::build(&stream, &card)?;
         let film = Film::new(card.islands, card.pace);
-        Ok(Self { stream, film, server, draft })
+        Ok(Self { stream, film, server, file, draft })
     }
 
     /// What to give to a viewer to watch live: `rerun ADDRESS`.
@@ -110,10 +109,7 @@ impl Recorder {
     /// # Errors
     /// If something could not be written.
     pub fn flush(&self) -> Result<(), ViewError> {
-        self.stream.flush_blocking().map_err(|error| ViewError::Flush {
-            path: self.draft.path().to_owned(),
-            message: error.to_string(),
-        })
+        self.stream.flush_blocking().map_err(|error| self.cannot_write(error.to_string()))
     }
 
     /// Puts the recording in its place, if it is not there, and goes on with it there.
@@ -137,10 +133,12 @@ impl Recorder {
             self.roll(island)?;
         }
         self.flush()?;
-        let Self { stream, mut draft, .. } = self;
-        // Rerun writes the end of the file, an index of what is in it, when nobody can write to it any more.
-        drop(stream);
-        draft.publish()
+        self.file.finish().map_err(|message| self.cannot_write(message))?;
+        self.draft.publish()
+    }
+
+    fn cannot_write(&self, message: String) -> ViewError {
+        ViewError::Flush { path: self.draft.path().to_owned(), message }
     }
 
     /// Shows what is due.
