@@ -1,6 +1,6 @@
 //! What a viewer gets to see is what was scored.
 
-use crate::support::{Ending, TINY, World, signal, until};
+use crate::support::{Ending, TINY, World, await_generation, signal, until};
 use islands::creature::{Gene, Profile, Shape};
 use islands::evolution::Fitness;
 use islands::formats::{genome_csv, metrics};
@@ -74,8 +74,8 @@ fn a_monitor_that_is_killed_again_and_again_leaves_a_film_without_gaps_or_double
     let settings = "--population 4 --generations 40 --genes 1 --elites 1";
     let run = world.start(&format!("--n 2 --seed 43 --out run --quiet --json {settings}"));
     let dir = RunDir::at(world.path("run"));
-    for generations in [2, 5, 8] {
-        until("the islands have evolved", || reported(&dir, 0) >= generations);
+    for generation in [2, 5, 8] {
+        await_generation(&dir, 2, generation);
         signal(run.child("monitor"), "KILL");
     }
     let ending = run.wait();
@@ -117,7 +117,7 @@ fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() 
     let endless = "--population 4 --generations 1000000 --genes 1 --migration-interval 1";
     let run = world.start(&format!("--n 1 --seed 3 --out run --no-monitor --quiet {endless}"));
     let dir = RunDir::at(world.path("run"));
-    until("the island has evolved", || reported(&dir, 0) > 2);
+    await_generation(&dir, 1, 2);
     let monitor = world.start("monitor run --view-address 127.0.0.5");
     until("there is a recording", || dir.recording().exists());
     let ending = world.islands("monitor run");
@@ -130,8 +130,8 @@ fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() 
     let lines: Vec<&str> = ending.stdout.lines().collect();
     assert!(lines[0].starts_with("watch it live:  rerun rerun+http://127.0.0.5:"), "{ending:?}");
     assert_eq!(lines[1..], ["view it:  rerun run/recording.rrd"]);
-    let generations = Recording::read(&dir.recording()).generations(1);
-    assert_eq!(generations, Vec::from_iter(0..reported(&dir, 0) as i64));
+    let reports = RecordLog::<Entry>::read(&dir.reports(0)).unwrap().records.len() as i64;
+    assert_eq!(Recording::read(&dir.recording()).generations(1), Vec::from_iter(0..reports));
 }
 
 #[test]
@@ -260,11 +260,6 @@ fn several_creatures_race_in_one_replay() {
         let (_, film) = problem.film(&genome).unwrap();
         recording.assert_ends_with(lane, &film, Task::Course);
     }
-}
-
-/// The number of generations that an island has written down.
-fn reported(dir: &RunDir, island: u32) -> usize {
-    RecordLog::<Entry>::read(&dir.reports(island)).unwrap().records.len()
 }
 
 /// Writes a log of these records instead of the one that is there.

@@ -1,16 +1,11 @@
 //! A run, with every real part: processes, shared memory, files.
 
-use crate::support::{Ending, Running, TINY, World, run_id, runs_in_shared_memory, signal, until};
+use crate::support::{Ending, Running, TINY, World, run_id};
 use islands::app::config::Config;
-use islands::creature::Gene;
 use islands::formats::metrics;
-use islands::store::{Checkpoint, Entry, RecordLog, RunDir, checkpoint};
+use islands::store::RunDir;
 use serde_json::Value;
 use std::collections::BTreeSet;
-use std::path::Path;
-
-/// A run that nobody waits for.
-const ENDLESS: &str = "--population 4 --generations 1000000 --genes 1 --migration-interval 1";
 
 #[test]
 fn a_run_ends_with_one_json_object_that_says_what_came_out() {
@@ -41,6 +36,7 @@ fn a_run_leaves_the_files_of_its_folder_and_no_others() {
     let dir = RunDir::at("run");
     let mut expected = vec![
         dir.config(),
+        dir.log(),
         dir.metrics(),
         dir.champion_genome(),
         dir.champion_body(),
@@ -220,51 +216,4 @@ fn a_seed_that_was_picked_is_printed_and_reproduces_the_run() {
     assert!(ending.stderr.contains(&format!("seed {seed}")), "{ending:?}");
     let again = world.digest("again", &format!("--n 1 --seed {seed} {TINY}"));
     assert_eq!(again, run["digest"]);
-}
-
-#[test]
-fn a_run_that_is_interrupted_keeps_what_it_recorded_and_leaves_nothing_else() {
-    let world = World::new();
-    let run = world.start(&format!("--n 2 --seed 3 --out run --json {ENDLESS}"));
-    wait_for_generations(&world.path("run"), 2);
-    run.signal("INT");
-    let ending = run.wait();
-    assert_eq!(ending.code, Some(130), "{ending:?}");
-    assert_eq!(ending.stdout, "");
-    let said = "error: interrupted; what was recorded so far is in run";
-    assert_eq!(ending.stderr.lines().next_back(), Some(said));
-    let dir = RunDir::at(world.path("run"));
-    for island in 0..2 {
-        let entries = RecordLog::<Entry>::read(&dir.reports(island)).unwrap().records;
-        let last = entries.last().unwrap().report.generation;
-        let saved: Checkpoint<Gene> = checkpoint::load(&dir.checkpoint(island, last)).unwrap();
-        assert_eq!(saved.island.generation, last);
-    }
-    assert!(!dir.summary().exists());
-    world.assert_left_nothing();
-}
-
-#[test]
-fn the_death_of_an_island_ends_the_run_with_one_sentence_and_leaves_nothing() {
-    let world = World::new();
-    let run = world.start(&format!("--n 3 --seed 3 --out run --no-monitor --quiet {ENDLESS}"));
-    wait_for_generations(&world.path("run"), 3);
-    let id = run_id(&world.read("run/run.toml"));
-    assert!(runs_in_shared_memory().contains(&id));
-    signal(run.child("--index=1"), "KILL");
-    let ending = run.wait();
-    assert_eq!(ending.code, Some(1), "{ending:?}");
-    assert_eq!(ending.stdout, "");
-    let said = "error: island 1 ended before its time (signal: 9 (SIGKILL)); the run stops, and what was \
-                recorded so far is in run\n";
-    assert_eq!(ending.stderr, said);
-    world.assert_left_nothing();
-}
-
-/// Waits until so many islands of a run have all evolved a generation.
-fn wait_for_generations(run: &Path, islands: u32) {
-    let dir = RunDir::at(run);
-    let generations =
-        |island| RecordLog::<Entry>::read(&dir.reports(island)).map_or(0, |log| log.records.len());
-    until("every island has evolved", || (0..islands).all(|island| generations(island) > 1));
 }

@@ -1,5 +1,6 @@
 //! Starting the program in a world of its own, and looking at what it leaves behind.
 
+use islands::store::{Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -130,7 +131,8 @@ impl World {
         assert!(names.is_empty(), "{names:?} is left");
         let ids = runs_in_shared_memory();
         for file in self.files().iter().filter(|file| file.ends_with("run.toml")) {
-            let id = run_id(&self.read(file));
+            // A test may have spoilt it on purpose.
+            let Some(id) = launch_id(&self.read(file)) else { continue };
             assert!(!ids.contains(&id), "the run {id} left something in {SHARED_MEMORY}");
             let fallback = Path::new("/tmp").join(format!("{NAME}{id}"));
             assert!(!fallback.exists(), "the run {id} left {}", fallback.display());
@@ -177,16 +179,31 @@ impl Running {
 
     /// The process that it has started with this argument, once there is one.
     pub fn child(&self, argument: &str) -> u32 {
+        let mut child = None;
+        until("there is such a child", || {
+            child = self.find_child(argument);
+            child.is_some() || !is_alive(self.pid())
+        });
+        child.unwrap_or_else(|| panic!("it ended without a child {argument}"))
+    }
+
+    /// The same, if there is one at the moment.
+    pub fn find_child(&self, argument: &str) -> Option<u32> {
         let is_it = |pid: &u32| {
             let arguments = fs::read_to_string(format!("/proc/{pid}/cmdline"));
             arguments.is_ok_and(|line| line.split('\0').any(|found| found == argument))
         };
-        let mut child = None;
-        until("there is such a child", || {
-            child = children(self.pid()).into_iter().find(is_it);
-            child.is_some()
-        });
-        child.unwrap()
+        self.children().into_iter().find(is_it)
+    }
+
+    /// All processes that it has started and that live.
+    pub fn children(&self) -> Vec<u32> {
+        children(self.pid()).into_iter().filter(|&pid| is_alive(pid)).collect()
+    }
+
+    /// Whether it is under way.
+    pub fn is_alive(&self) -> bool {
+        is_alive(self.pid())
     }
 }
 
@@ -202,8 +219,22 @@ impl Drop for Running {
 
 /// Sends a signal to a process.
 pub fn signal(pid: u32, name: &str) {
-    let sent = Command::new("kill").args([format!("-{name}"), pid.to_string()]).status().unwrap();
-    assert!(sent.success());
+    assert!(try_signal(pid, name));
+}
+
+/// Sends a signal to a process that may have ended by itself; whether there was one.
+pub fn try_signal(pid: u32, name: &str) -> bool {
+    let mut kill = Command::new("kill");
+    kill.args([format!("-{name}"), pid.to_string()]).stderr(Stdio::null());
+    kill.status().unwrap().success()
+}
+
+/// Waits until every island of a run has evolved this generation.
+pub fn await_generation(dir: &RunDir, islands: u32, generation: u32) {
+    let generations = |island| {
+        RecordLog::<Entry>::read(&dir.reports(island)).map_or(0, |log| log.records.len() as u32)
+    };
+    until("every island has evolved", || (0..islands).all(|i| generations(i) > generation));
 }
 
 /// Waits until something is so.
@@ -226,8 +257,12 @@ pub fn runs_in_shared_memory() -> BTreeSet<String> {
 
 /// The id that a run's configuration names.
 pub fn run_id(config: &str) -> String {
-    let config: toml::Table = config.parse().unwrap();
-    config["launch"]["run-id"].as_str().unwrap().to_owned()
+    launch_id(config).unwrap()
+}
+
+fn launch_id(config: &str) -> Option<String> {
+    let config: toml::Table = config.parse().ok()?;
+    config.get("launch")?.get("run-id")?.as_str().map(str::to_owned)
 }
 
 /// Asserts that two JSON values are the same, numbers to the last bit, whether written as 1 or 1.0.
@@ -261,9 +296,18 @@ fn children(parent: u32) -> Vec<u32> {
 }
 
 fn parent_of(pid: u32) -> Option<u32> {
+    status_of(pid, 1)?.parse().ok()
+}
+
+/// Whether a process exists and is not merely waiting to be waited for.
+pub fn is_alive(pid: u32) -> bool {
+    status_of(pid, 0).is_some_and(|state| !matches!(state.as_str(), "Z" | "X"))
+}
+
+fn status_of(pid: u32, field: usize) -> Option<String> {
     let status = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
     // The name before may hold anything but ends with the last bracket; then come the state and the parent.
-    status.rsplit_once(')')?.1.split_whitespace().nth(1)?.parse().ok()
+    status.rsplit_once(')')?.1.split_whitespace().nth(field).map(str::to_owned)
 }
 
 fn files_below(folder: &Path) -> Vec<PathBuf> {

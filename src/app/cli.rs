@@ -1,11 +1,10 @@
 //! The command line.
 
-use super::config::Config;
+use super::settings::SettingArgs;
 use crate::creature::Profile;
-use crate::evolution::Selection;
 use crate::problems::Task;
-use clap::{Args, Parser, Subcommand};
-use std::net::IpAddr;
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
 /// Evolve virtual creatures on every core, reproducibly to the last bit, and watch them learn to walk.
@@ -17,6 +16,7 @@ use std::path::PathBuf;
     after_help = "Examples:
   islands --n 4                      four islands evolve walkers
   islands run --n 4 --seed 7         the same, with a seed that fixes the result to the last bit
+  islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
   islands replay champion.csv --out walk.rrd && rerun walk.rrd"
 )]
@@ -27,11 +27,39 @@ pub struct Cli {
     pub run: RunArgs,
 }
 
+/// The settings that may be other ones when a run goes on: they do not change what evolves.
+const FREE: [&str; 3] = ["generations", "threads", "checkpoint_interval"];
+
+/// Reads the command line; where it makes no sense the program ends with a sentence.
+pub fn parse() -> Cli {
+    let matches = command().get_matches();
+    Cli::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+}
+
+// All settings can be said to a run that goes on, so that it can say which one it cannot change. Its help names
+// those that it can.
+fn command() -> clap::Command {
+    let settings = SettingArgs::augment_args(clap::Command::new(""));
+    let fixed: Vec<String> = settings
+        .get_arguments()
+        .map(|arg| arg.get_id().to_string())
+        .filter(|name| !FREE.contains(&name.as_str()))
+        .collect();
+    Cli::command().mut_subcommand("resume", |resume| {
+        resume.mut_args(|arg| match fixed.iter().any(|name| arg.get_id() == name.as_str()) {
+            true => arg.hide(true),
+            false => arg,
+        })
+    })
+}
+
 /// What to do; without a word, `run`.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Evolve creatures on several islands
     Run(Box<RunArgs>),
+    /// Go on with a run that was interrupted or crashed, or make a finished one longer
+    Resume(Box<ResumeArgs>),
     /// Score genomes
     Evaluate(EvaluateArgs),
     /// Show the body that a genome describes
@@ -48,118 +76,46 @@ pub enum Command {
 /// A run. What is not said has a default, or is as a file says.
 #[derive(Debug, Args)]
 pub struct RunArgs {
-    /// Number of islands, each a process [default: 4]
-    #[arg(long = "n", visible_alias = "islands", value_name = "N")]
-    pub islands: Option<u32>,
-    /// Seed that fixes the result; picked and printed if none is given
-    #[arg(long)]
-    pub seed: Option<u64>,
-    /// Generations after the random first one [default: 80]
-    #[arg(long, value_name = "G")]
-    pub generations: Option<u32>,
-    /// Individuals on each island [default: 24]
-    #[arg(long, value_name = "P")]
-    pub population: Option<usize>,
-    /// What creatures have to do: walk (get away), travel (keep moving) or course (as the course
-    /// program measures) [default: walk]
-    #[arg(long)]
-    pub task: Option<Task>,
-    /// How genes are read: native, lecture or coursework [default: native]
-    #[arg(long)]
-    pub profile: Option<Profile>,
-    /// Genes of a random genome [default: 4]
-    #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
-    pub genes: Option<usize>,
-    /// No genome gets longer than this [default: 12]
-    #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
-    pub max_genes: Option<usize>,
-    /// No body gets more links than this [default: 32]
-    #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
-    pub max_links: Option<usize>,
-    /// How parents are picked: roulette, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
-    /// [default: tournament:3]
-    #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
-    pub selection: Option<Selection>,
-    /// How many of the best live on unchanged [default: 2]
-    #[arg(long, value_name = "E", help_heading = "Genetic algorithm")]
-    pub elites: Option<usize>,
-    /// Probability of an offspring to have two parents [default: 0.3]
-    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
-    pub crossover_rate: Option<f64>,
-    /// Probability of each value of a gene to be changed [default: 0.04]
-    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
-    pub point_rate: Option<f64>,
-    /// The most by which a value is changed, as a share of its range [default: 0.2]
-    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
-    pub point_amount: Option<f64>,
-    /// Probability of an offspring to lose a gene [default: 0.1]
-    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
-    pub shrink_rate: Option<f64>,
-    /// Probability of an offspring to gain a gene [default: 0.1]
-    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
-    pub grow_rate: Option<f64>,
-    /// Generations between two exchanges of migrants [default: 5]
-    #[arg(long, value_name = "G", help_heading = "Migration")]
-    pub migration_interval: Option<u32>,
-    /// Individuals that an island sends at each exchange [default: 2]
-    #[arg(long, value_name = "M", help_heading = "Migration")]
-    pub migrants: Option<usize>,
-    /// Exchanges by which immigrants come later, so that no island waits [default: 1]
-    #[arg(long, value_name = "L", help_heading = "Migration")]
-    pub migration_lag: Option<u32>,
-    /// Generations between two checkpoints of an island: what a crash costs at most [default: 1]
-    #[arg(long, value_name = "G", help_heading = "Running")]
-    pub checkpoint_interval: Option<u32>,
-    /// Threads of all islands together, at least one each; the result does not depend on it
-    /// [default: all cores]
-    #[arg(long, value_name = "T", help_heading = "Running")]
-    pub threads: Option<usize>,
+    #[command(flatten)]
+    pub settings: SettingArgs,
     /// A file that says the same as these flags, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
     /// Folder for the run's files, new or empty [default: runs/<task>-seed<seed>]
     #[arg(long, value_name = "DIR", help_heading = "Running")]
     pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
+/// Going on.
+#[derive(Debug, Args)]
+pub struct ResumeArgs {
+    /// Folder of a run that was interrupted, crashed or has finished
+    #[arg(value_name = "RUN_DIR")]
+    pub dir: PathBuf,
+    #[command(flatten)]
+    pub settings: SettingArgs,
+    #[command(flatten)]
+    pub output: OutputArgs,
+}
+
+/// What a run shows.
+#[derive(Debug, Args)]
+pub struct OutputArgs {
     /// Record and serve nothing; every other file is written all the same
     #[arg(long, help_heading = "Running")]
     pub no_monitor: bool,
+    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
+    /// watch, without a password
+    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
+    pub view_address: IpAddr,
     /// Show no progress
     #[arg(long, help_heading = "Running")]
     pub quiet: bool,
     /// Print the result as one JSON object, the last line of standard output
     #[arg(long, help_heading = "Running")]
     pub json: bool,
-}
-
-impl RunArgs {
-    /// Lays the flags over a configuration.
-    pub fn over(&self, config: Config) -> Config {
-        Config {
-            islands: self.islands.unwrap_or(config.islands),
-            seed: self.seed.or(config.seed),
-            generations: self.generations.unwrap_or(config.generations),
-            population: self.population.unwrap_or(config.population),
-            task: self.task.unwrap_or(config.task),
-            profile: self.profile.unwrap_or(config.profile),
-            genes: self.genes.unwrap_or(config.genes),
-            max_genes: self.max_genes.unwrap_or(config.max_genes),
-            max_links: self.max_links.unwrap_or(config.max_links),
-            selection: self.selection.unwrap_or(config.selection),
-            elites: self.elites.unwrap_or(config.elites),
-            crossover_rate: self.crossover_rate.unwrap_or(config.crossover_rate),
-            point_rate: self.point_rate.unwrap_or(config.point_rate),
-            point_amount: self.point_amount.unwrap_or(config.point_amount),
-            shrink_rate: self.shrink_rate.unwrap_or(config.shrink_rate),
-            grow_rate: self.grow_rate.unwrap_or(config.grow_rate),
-            topology: config.topology,
-            migration_interval: self.migration_interval.unwrap_or(config.migration_interval),
-            migrants: self.migrants.unwrap_or(config.migrants),
-            migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
-            checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
-            threads: self.threads.or(config.threads),
-            launch: None,
-        }
-    }
 }
 
 /// How a genome file is read and tried.
@@ -231,9 +187,9 @@ pub struct MonitorArgs {
     /// Folder of a run, under way or over
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
-    /// Address to serve the live view on. Anything but 127.0.0.1 lets everybody who can reach it watch the run,
-    /// and show something else to the others who watch: there is no password
-    #[arg(long, value_name = "IP", default_value = "127.0.0.1")]
+    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
+    /// watch, and show something else to the others who watch, without a password
+    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into())]
     pub view_address: IpAddr,
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
@@ -258,12 +214,12 @@ pub struct IslandArgs {
 
 #[cfg(test)]
 mod tests {
+    use super::super::config::Config;
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_help_names_the_defaults_that_hold() {
-        Cli::command().debug_assert();
+        command().debug_assert();
         let config = toml::Table::try_from(Config::default()).expect("it is plain data");
         for arg in Cli::command().get_arguments() {
             let name = arg.get_id().as_str().replace('_', "-");
@@ -271,61 +227,6 @@ mod tests {
             let Some(value) = config.get(&name) else { continue };
             let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
             assert!(help.contains(&format!("[default: {value}]")), "{name} is {value}: {help}");
-        }
-    }
-
-    #[test]
-    fn every_setting_has_a_flag_that_wins_over_a_file() {
-        let flags = [
-            "islands",
-            "--n",
-            "9",
-            "--seed",
-            "9",
-            "--generations",
-            "9",
-            "--population",
-            "9",
-            "--task",
-            "travel",
-            "--profile",
-            "lecture",
-            "--genes",
-            "9",
-            "--max-genes",
-            "9",
-            "--max-links",
-            "9",
-            "--selection",
-            "roulette",
-            "--elites",
-            "9",
-            "--crossover-rate",
-            "0.9",
-            "--point-rate",
-            "0.9",
-            "--point-amount",
-            "0.9",
-            "--shrink-rate",
-            "0.9",
-            "--grow-rate",
-            "0.9",
-            "--migration-interval",
-            "9",
-            "--migrants",
-            "9",
-            "--migration-lag",
-            "9",
-            "--checkpoint-interval",
-            "9",
-            "--threads",
-            "9",
-        ];
-        let parsed = Cli::try_parse_from(flags).expect("these flags exist");
-        let laid = toml::Table::try_from(parsed.run.over(Config::default())).expect("plain data");
-        let file = toml::Table::try_from(Config::default()).expect("plain data");
-        for (name, value) in &file {
-            assert!(name == "topology" || laid[name] != *value, "{name} has no flag");
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_M
 use crate::creature::Profile;
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
+use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -222,6 +223,16 @@ impl Config {
                 },
             },
         }
+    }
+
+    /// The shared memory of a run that was launched.
+    ///
+    /// # Errors
+    /// If it never was.
+    pub fn domain(&self) -> Result<Domain, Failure> {
+        let launch = self.launch.as_ref();
+        let launch = launch.ok_or_else(|| Failure::usage("this run was never launched"))?;
+        Ok(launch.run_id.parse::<Domain>()?)
     }
 
     /// The problem that is solved.

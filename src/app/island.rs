@@ -4,16 +4,14 @@ use super::Failure;
 use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
-use super::kinship::{Ear, FINISHED, tell};
-use crate::archipelago::island::{Step, genesis, step};
-use crate::archipelago::{Archipelago, Inbox, Island, Outbox};
+use super::kinship::{Ear, FINISHED, READY, tell};
+use super::patience::Patience;
+use crate::archipelago::voyage::{Deed, Voyage};
+use crate::archipelago::{Archipelago, Step};
 use crate::evolution::Problem;
-use crate::store::{Logbook, RunDir};
-use crate::transport::{Domain, Exchange, TICK};
-use std::time::Duration;
-
-/// Without an outbox for so long, an island asks for it again.
-const PATIENCE: Duration = Duration::from_millis(200);
+use crate::store::{Journal, Logbook, Restored, RunDir};
+use crate::transport::{Exchange, TICK};
+use std::collections::BTreeMap;
 
 /// Runs one island of the run in a folder.
 ///
@@ -25,141 +23,156 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let config = Config::read(&dir.config())?;
     let archipelago = config.archipelago();
     // Before any thread makes a file: opening changes the umask for a moment.
-    let exchange = Exchange::open(&domain(&config)?, &archipelago, args.index)?;
+    let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
     rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads)
         .build_global()
         .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let restored = Logbook::open(&dir, &archipelago, args.index, &config.settings())?;
-    for warning in &restored.warnings {
+    let Restored { logbook, island, warnings } =
+        Logbook::open(&dir, &archipelago, args.index, &config.settings())?;
+    for warning in warnings {
         say(&format!("warning: {warning}"));
     }
-    let inbox = Inbox::new(archipelago.in_neighbours(args.index), 0);
     let problem = config.problem();
-    let mut shore = Shore { exchange, inbox, logbook: restored.logbook, ear };
-    evolve(&problem, &archipelago, args.index, config.generations, &mut shore, restored.island)
+    let saved = island.as_ref().map(|island| island.generation);
+    let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
+    let mut ship = Ship { voyage, exchange, logbook, ear, saved, refused: BTreeMap::new() };
+    ship.catch_up(&dir, &archipelago)?;
+    ship.sail(config.checkpoint_interval, config.generations)
 }
 
-/// The shared memory of a run.
-pub fn domain(config: &Config) -> Result<Domain, Failure> {
-    let launch = config.launch.as_ref();
-    let launch = launch.ok_or_else(|| Failure::usage("this run was never launched"))?;
-    Ok(launch.run_id.parse::<Domain>()?)
-}
-
-fn evolve<P: Problem>(
-    problem: &P,
-    archipelago: &Archipelago,
-    index: u32,
-    generations: u32,
-    shore: &mut Shore<P>,
-    restored: Option<Island<P::Gene>>,
-) -> Result<(), Failure> {
-    let watch = Stopwatch::start();
-    let mut island = match restored {
-        Some(island) => island,
-        None => {
-            let first = genesis(problem, archipelago, index);
-            shore.record(&first, watch)?;
-            first.island
-        }
-    };
-    while island.generation < generations {
-        let watch = Stopwatch::start();
-        let epoch = archipelago.migration.immigration(island.generation + 1);
-        let Some(immigrants) = shore.await_immigrants(epoch)? else { break };
-        let next = step(island, &immigrants, problem, archipelago);
-        shore.record(&next, watch)?;
-        island = next.island;
-        shore.answer()?;
-    }
-    if island.generation == generations {
-        tell(FINISHED);
-    }
-    shore.serve_until_stopped()
-}
-
-/// Where an island meets the world: its neighbours, its files and its launcher.
-struct Shore<P: Problem> {
+/// An island and what connects it to the world: its neighbours, its files and its launcher.
+struct Ship<'a, P: Problem> {
+    voyage: Voyage<'a, P>,
     exchange: Exchange<P::Gene>,
-    inbox: Inbox<P::Gene>,
     logbook: Logbook<P::Gene>,
     ear: Ear,
+    /// The generation of its newest checkpoint.
+    saved: Option<u32>,
+    /// Batches that were refused, by the island that they came as.
+    refused: BTreeMap<u32, u64>,
 }
 
-impl<P: Problem> Shore<P> {
-    /// The outboxes of an epoch, once all are here; none if the launcher wants to stop before.
-    fn await_immigrants(
-        &mut self,
-        epoch: Option<u32>,
-    ) -> Result<Option<Vec<Outbox<P::Gene>>>, Failure> {
-        let Some(epoch) = epoch else {
-            return Ok((!self.ear.heard_stop()).then(Vec::new));
-        };
-        let mut waiting = Stopwatch::start();
-        loop {
-            if self.ear.heard_stop() {
-                return Ok(None);
-            }
-            if self.receive() {
-                waiting = Stopwatch::start();
-            }
-            if let Some(immigrants) = self.inbox.take(epoch) {
-                return Ok(Some(immigrants));
-            }
-            if waiting.elapsed() > PATIENCE {
-                for source in self.inbox.missing(epoch) {
-                    self.exchange.request(source, epoch);
+impl<P: Problem> Ship<'_, P> {
+    /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
+    /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
+    fn catch_up(&mut self, dir: &RunDir, archipelago: &Archipelago) -> Result<(), Failure> {
+        let Some(island) = self.voyage.island() else { return Ok(()) };
+        let window = self.exchange.history();
+        let next = archipelago.migration.next_immigration(island.generation);
+        for source in archipelago.in_neighbours(island.index) {
+            for outbox in Journal::read(&dir.migrations(source), next..next.saturating_add(window))?
+            {
+                if outbox.fits(archipelago, source) {
+                    self.voyage.receive(outbox);
                 }
-                waiting = Stopwatch::start();
             }
-            self.answer()?;
-            self.exchange.wait(TICK)?;
         }
+        self.send_since(self.logbook.epochs().saturating_sub(window))
     }
 
-    /// Takes in what arrived; whether anything new was there.
-    fn receive(&mut self) -> bool {
-        let received = self.exchange.receive();
-        for (source, rejection) in received.rejected {
-            say(&format!("warning: refused migrants that came as island {source}'s: {rejection}"));
+    /// Evolves until all is done, and serves the neighbours until the launcher wants it to stop.
+    fn sail(&mut self, checkpoint_interval: u32, generations: u32) -> Result<(), Failure> {
+        let clock = Stopwatch::start();
+        let mut patience = Patience::new();
+        let mut generation_began = Stopwatch::start();
+        let mut is_ready = false;
+        let mut is_finished = false;
+        while !self.ear.heard_stop() {
+            self.receive();
+            self.answer()?;
+            if !is_ready && self.voyage.waits_for().is_none() {
+                is_ready = true;
+                self.tell_ready();
+            }
+            match self.voyage.advance(clock.elapsed()) {
+                Deed::Evolved(step) => {
+                    let seconds = generation_began.seconds();
+                    generation_began = Stopwatch::start();
+                    patience.learn(seconds);
+                    self.record(&step, seconds)?;
+                    let generation = step.island.generation;
+                    if generation.is_multiple_of(checkpoint_interval) || generation == generations {
+                        self.save()?;
+                    }
+                }
+                Deed::Ask { sources, epoch } => {
+                    sources.into_iter().for_each(|source| self.exchange.request(source, epoch));
+                }
+                Deed::Wait => {
+                    patience.wait(self.voyage.waits_for());
+                    self.exchange.wait(TICK)?;
+                }
+                Deed::Arrived => {
+                    if !std::mem::replace(&mut is_finished, true) {
+                        tell(FINISHED);
+                    }
+                    self.exchange.wait(TICK)?;
+                }
+            }
         }
-        let accept = |outbox| self.inbox.accept(outbox) == crate::archipelago::Arrival::Kept;
-        received.outboxes.into_iter().map(accept).filter(|&new| new).count() > 0
+        self.save()
+    }
+
+    fn tell_ready(&self) {
+        let generation = self.voyage.island().map(|island| island.generation);
+        tell(&format!(
+            "{READY}{}",
+            generation.map_or_else(|| "nothing".to_owned(), |g| g.to_string())
+        ));
+    }
+
+    /// Takes in what arrived.
+    fn receive(&mut self) {
+        let received = self.exchange.receive();
+        for outbox in received.outboxes {
+            self.voyage.receive(outbox);
+        }
+        for (source, rejection) in received.rejected {
+            let count = self.refused.entry(source).or_default();
+            *count += 1;
+            // Whoever sends such things may send many.
+            if count.is_power_of_two() {
+                say(&format!(
+                    "warning: refused {count} batch(es) of migrants that came as island {source}'s: {rejection}"
+                ));
+            }
+        }
     }
 
     /// Sends again what a neighbour asks for.
     fn answer(&mut self) -> Result<(), Failure> {
-        if let Some(epoch) = self.exchange.requests() {
-            for epoch in epoch..self.logbook.epochs() {
-                let Some(outbox) = self.logbook.outbox(epoch)? else { break };
-                // Those that nobody has room for are asked for again.
-                if self.exchange.publish(&outbox)? == 0 {
-                    break;
-                }
+        self.exchange.requests().map_or(Ok(()), |epoch| self.send_since(epoch))
+    }
+
+    fn send_since(&self, epoch: u32) -> Result<(), Failure> {
+        for epoch in epoch..self.logbook.epochs() {
+            let Some(outbox) = self.logbook.outbox(epoch)? else { break };
+            // What nobody has room for is asked for again.
+            if self.exchange.publish(&outbox)? == 0 {
+                break;
             }
         }
         Ok(())
     }
 
     /// Records a generation and sends what it has to send: first what must not be lost, then the word of it.
-    fn record(&mut self, step: &Step<P::Gene>, watch: Stopwatch) -> Result<(), Failure> {
-        let seconds = watch.seconds();
-        let champion = step.new_champion.then_some(&step.island.champion);
+    fn record(&mut self, step: &Step<P::Gene>, seconds: f64) -> Result<(), Failure> {
         self.logbook.record(step, seconds)?;
         if let Some(outbox) = &step.outbox {
             self.exchange.publish(outbox)?;
         }
-        self.logbook.save(&step.island)?;
+        let champion = step.new_champion.then_some(&step.island.champion);
         self.exchange.report(&step.report, seconds, champion)?;
         Ok(())
     }
 
-    /// Neighbours may still need what this island sent.
-    fn serve_until_stopped(&mut self) -> Result<(), Failure> {
-        while !self.ear.heard_stop() {
-            self.answer()?;
-            self.exchange.wait(TICK)?;
+    /// Saves the island as it is, unless it is saved already.
+    fn save(&mut self) -> Result<(), Failure> {
+        let Some(island) = self.voyage.island() else { return Ok(()) };
+        if self.saved != Some(island.generation) {
+            self.logbook.save(island)?;
+            self.saved = Some(island.generation);
         }
         Ok(())
     }

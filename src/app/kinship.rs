@@ -1,98 +1,158 @@
 //! Parent and child processes: a child dies with its parent, stops when its standard input ends, and says what
-//! it has to say in lines on its standard output.
+//! it has to say in lines on its standard output, and what went wrong on its standard error.
 
 use super::Failure;
 use super::console;
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
+use signal_hook::iterator::Signals;
+use std::fmt;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::Sender;
+use std::thread::JoinHandle;
+use std::time::Duration;
 
+/// What an island tells its launcher before the generation that it goes on from, once it can evolve the next.
+pub const READY: &str = "ready after ";
 /// What an island tells its launcher when it has evolved all its generations.
 pub const FINISHED: &str = "finished";
 /// What the monitor tells its launcher, before the address that serves the view.
 pub const SERVING: &str = "serving ";
-/// What the monitor tells its launcher when it has the last report of every island.
-pub const CAUGHT_UP: &str = "caught up";
+
+/// Who a child is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// An island, by its index.
+    Island(u32),
+    /// The monitor.
+    Monitor,
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Role::Island(index) => write!(f, "island {index}"),
+            Role::Monitor => f.write_str("the monitor"),
+        }
+    }
+}
+
+/// What is heard of a child.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Word {
+    /// A line that it said.
+    Said(String),
+    /// A line about what went wrong.
+    Complained(String),
+    /// It has died, or will in a moment: wait for it.
+    Fell,
+}
 
 /// A child process, seen from its parent. Dropped, it is killed and waited for.
 pub struct Kin {
-    name: String,
+    role: Role,
     child: Child,
     stdin: Option<ChildStdin>,
-    exit: Option<ExitStatus>,
+    readers: Vec<JoinHandle<()>>,
 }
 
 impl Kin {
-    /// Starts this executable with other arguments. What it prints is sent to `lines`, with its name.
+    /// Starts this executable with other arguments. What it says is sent to `words`, and that it has died.
     ///
     /// Call it from the main thread: a child dies with the thread that started it.
     ///
     /// # Errors
     /// If no process can be started.
     pub fn start(
-        name: &str,
+        role: Role,
         arguments: &[String],
-        lines: Sender<(String, String)>,
+        words: &Sender<(Role, Word)>,
     ) -> Result<Self, Failure> {
-        let failed = |error| Failure::failed(format!("cannot start {name}: {error}"));
+        let failed = |error| Failure::failed(format!("cannot start {role}: {error}"));
         let executable = std::env::current_exe().map_err(failed)?;
         let mut child = Command::new(executable)
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             // Ctrl-C reaches the whole process group of a terminal, and is the launcher's alone.
             .process_group(0)
             .spawn()
             .map_err(failed)?;
-        if let Some(stdout) = child.stdout.take() {
-            let name = name.to_owned();
+        let complaints = child.stderr.take().map(|stream| {
+            let words = words.clone();
             std::thread::spawn(move || {
-                for line in BufReader::new(stdout).lines().map_while(Result::ok) {
-                    // A launcher that no longer listens is about to end.
-                    let _ = lines.send((name.clone(), line));
-                }
-            });
-        }
+                forward(stream, |line| send(&words, role, Word::Complained(line)))
+            })
+        });
+        let sayings = child.stdout.take().map(|stream| {
+            let words = words.clone();
+            std::thread::spawn(move || {
+                forward(stream, |line| send(&words, role, Word::Said(line)));
+                send(&words, role, Word::Fell);
+            })
+        });
         let stdin = child.stdin.take();
-        Ok(Self { name: name.to_owned(), child, stdin, exit: None })
+        Ok(Self { role, child, stdin, readers: complaints.into_iter().chain(sayings).collect() })
     }
 
-    /// Its name.
-    pub fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// How it ended, if it has.
-    pub fn ended(&mut self) -> Option<ExitStatus> {
-        if self.exit.is_none() {
-            self.exit = self.child.try_wait().ok().flatten();
-        }
-        self.exit
+    /// Whether it lives.
+    pub fn is_alive(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(None))
     }
 
     /// Asks it to stop.
     pub fn ask_to_stop(&mut self) {
         self.stdin = None;
     }
+
+    /// Waits for its end, and until all that it said has been sent.
+    ///
+    /// # Errors
+    /// If it cannot be waited for.
+    pub fn bury(mut self) -> Result<ExitStatus, Failure> {
+        let role = self.role;
+        let status = self.child.wait();
+        for reader in self.readers.drain(..) {
+            // A reader that panicked has nothing more to send.
+            let _ = reader.join();
+        }
+        status.map_err(|error| Failure::failed(format!("cannot wait for {role}: {error}")))
+    }
 }
 
 impl Drop for Kin {
     fn drop(&mut self) {
-        if self.ended().is_none() {
-            // Both fail only if it has ended by itself meanwhile.
-            let _ = self.child.kill();
-            let _ = self.child.wait();
-        }
+        // Both fail only if it has ended by itself meanwhile.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
     }
 }
 
-/// A child's ear: whether its parent asked it to stop.
+fn forward(stream: impl Read, send: impl Fn(String)) {
+    let mut lines = BufReader::new(stream).split(b'\n').map_while(Result::ok);
+    lines.by_ref().for_each(|line| send(String::from_utf8_lossy(&line).into_owned()));
+}
+
+fn send(words: &Sender<(Role, Word)>, role: Role, word: Word) {
+    // A launcher that no longer listens is about to end.
+    let _ = words.send((role, word));
+}
+
+/// How urgently a process is to stop.
+const UNASKED: u8 = 0;
+const ASKED: u8 = 1;
+const URGED: u8 = 2;
+
+/// Who was urged and still has not ended after so long ends at once.
+const LAST_CHANCE: Duration = Duration::from_secs(5);
+
+/// A process's ear: whether it was asked to stop, and whether at once.
 #[derive(Debug, Clone)]
-pub struct Ear(Arc<AtomicBool>);
+pub struct Ear(Arc<AtomicU8>);
 
 impl Ear {
     /// Ties this process to `parent`, and listens for its word.
@@ -107,36 +167,47 @@ impl Ear {
         if getppid() != Pid::from_raw(parent) {
             return Err(orphaned());
         }
-        let ear = Self(Arc::new(AtomicBool::new(false)));
+        let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
         let told = ear.clone();
         std::thread::spawn(move || {
             let mut nothing = Vec::new();
             // The end of the input is the word; an error ends it as well.
             let _ = std::io::stdin().lock().read_to_end(&mut nothing);
-            told.0.store(true, Ordering::Release);
+            told.0.store(ASKED, Ordering::Release);
         });
         Ok(ear)
     }
 
-    /// An ear that hears Ctrl-C and a request to terminate: for a process that nobody started.
+    /// An ear that hears Ctrl-C and a request to terminate, once and twice: for a process that nobody started.
     ///
     /// # Errors
     /// If signals cannot be caught.
     pub fn to_signals() -> Result<Self, Failure> {
         use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-        let told = Arc::new(AtomicBool::new(false));
-        for signal in [SIGINT, SIGTERM, SIGHUP] {
-            // Registered first, so that it acts from the second signal on: at once.
-            signal_hook::flag::register_conditional_shutdown(signal, 130, Arc::clone(&told))
-                .and_then(|_| signal_hook::flag::register(signal, Arc::clone(&told)))
-                .map_err(|error| Failure::failed(format!("cannot catch signals: {error}")))?;
-        }
-        Ok(Self(told))
+        let failed = |error| Failure::failed(format!("cannot catch signals: {error}"));
+        let mut signals = Signals::new([SIGINT, SIGTERM, SIGHUP]).map_err(failed)?;
+        let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
+        let told = ear.clone();
+        std::thread::spawn(move || {
+            let mut signals = signals.forever();
+            signals.next();
+            told.0.store(ASKED, Ordering::Release);
+            signals.next();
+            told.0.store(URGED, Ordering::Release);
+            std::thread::sleep(LAST_CHANCE);
+            std::process::exit(130);
+        });
+        Ok(ear)
     }
 
     /// Whether to stop.
     pub fn heard_stop(&self) -> bool {
-        self.0.load(Ordering::Acquire)
+        self.0.load(Ordering::Acquire) >= ASKED
+    }
+
+    /// Whether to stop at once.
+    pub fn heard_hurry(&self) -> bool {
+        self.0.load(Ordering::Acquire) >= URGED
     }
 }
 

@@ -1,6 +1,6 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli` is what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
+//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
 //! process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with
 //! it, and stop when it closes their standard input. It shows their progress (`progress`), and at the end
 //! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes.
@@ -8,9 +8,11 @@
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
+mod chronicle;
 mod cli;
 pub mod config;
 mod console;
+mod crew;
 mod evaluate;
 mod genomes;
 mod inspect;
@@ -18,21 +20,26 @@ mod island;
 mod kinship;
 mod launcher;
 mod monitor;
+mod mortality;
+mod patience;
 mod progress;
 mod replay;
 mod result;
+mod resume;
+mod settings;
+mod supervisor;
 
-use clap::Parser;
-use cli::{Cli, Command};
+use cli::Command;
 use std::process::ExitCode;
 
 /// Parses the command line, does what it says and returns the program's exit code: 0, 1 if something failed,
 /// 2 if the user has to say something else, 130 if the run was interrupted.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = cli::parse();
     let done = match cli.command {
         None => launcher::run(&cli.run),
         Some(Command::Run(args)) => launcher::run(&args),
+        Some(Command::Resume(args)) => launcher::resume(&args),
         Some(Command::Evaluate(args)) => evaluate::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),

@@ -35,6 +35,7 @@ mod watched {
     use super::super::config::Config;
     use super::super::console::{print, say};
     use super::super::kinship::{Ear, SERVING, tell};
+    use super::super::result;
     use super::MonitorArgs;
     use super::cinema::Cinema;
     use super::logs::Logs;
@@ -79,7 +80,7 @@ mod watched {
     fn configuration(dir: &RunDir) -> Result<Config, Failure> {
         if !dir.config().exists() {
             let path = dir.path().display();
-            return Err(Failure::usage(format!("{path} is no run's folder: it has no run.toml")));
+            return Err(Failure::usage(format!("there is no run in {path}: it has no run.toml")));
         }
         let config = Config::read(&dir.config())?;
         config.check()?;
@@ -159,7 +160,8 @@ mod watched {
             if !cinema.has_shown() {
                 return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
             }
-            let short = logs.first_short_of(config.generations).filter(|_| dir.summary().exists());
+            let is_over = result::finished(&dir, &config).is_some();
+            let short = logs.first_short_of(config.generations).filter(|_| is_over);
             if let Some((island, generations)) = short {
                 let news = format!(
                     "the run in {folder} is over, but the logs of island {island} hold only the first \

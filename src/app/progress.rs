@@ -26,6 +26,7 @@ enum Show {
 /// What is known of an island.
 #[derive(Clone, Default)]
 struct Tally {
+    generation: Option<u32>,
     evaluations: u64,
     best: Option<crate::evolution::Fitness>,
     last_line: Option<Stopwatch>,
@@ -57,10 +58,22 @@ impl Progress {
         }
     }
 
+    /// The same where nothing is to be shown, too.
+    pub fn insist(&self, line: &str) {
+        match &self.show {
+            Show::Bars(..) => self.say(line),
+            Show::Lines | Show::Nothing => say(line),
+        }
+    }
+
     /// Shows a report, `seconds` after the start.
     pub fn update<P: Problem>(&mut self, problem: &P, report: &Report, seconds: f64) {
         let Some(tally) = self.tally.get_mut(report.island as usize) else { return };
-        tally.evaluations += report.effort.evaluations;
+        // An island that was born again evolves again what it had not saved.
+        if tally.generation.is_none_or(|last| report.generation > last) {
+            tally.evaluations += report.effort.evaluations;
+            tally.generation = Some(report.generation);
+        }
         tally.best = tally.best.max(Some(report.statistics.best));
         let best = tally.best.map_or_else(String::new, |best| problem.show(best));
         let speed = tally.evaluations as f64 / seconds.max(1e-3);

@@ -8,12 +8,12 @@ use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Individual, Problem};
 use crate::formats::{genome_csv, metrics, urdf};
 use crate::problems::Locomotion;
-use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint};
-use serde::Serialize;
+use crate::store::{Champion, Entry, RecordLog, RunDir, StoreError, checkpoint, file};
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// The result of a run, as `summary.json` and `--json` say it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// The digest of all final populations: equal for equal seeds and settings.
     pub digest: String,
@@ -53,10 +53,28 @@ pub struct Summary {
     /// The run's folder.
     pub run_dir: PathBuf,
     /// The film, if there is one.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<PathBuf>,
     /// The program's version.
-    pub version: &'static str,
+    pub version: String,
+}
+
+/// The result of a run that has finished: what it said then, as long as its final populations still say the same.
+/// None if it has not finished, or something of it has to be evolved again.
+pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
+    let summary = file::read(&dir.summary()).ok()?;
+    let summary: Summary = serde_json::from_slice(&summary).ok()?;
+    let islands = final_islands(dir, config).ok()?;
+    let is_sound = summary.generations == config.generations
+        && summary.digest == Digest::of(&islands).to_string();
+    is_sound.then(|| Summary {
+        // The folder may have been moved.
+        best: config.problem().show(champion(&islands).champion.fitness),
+        best_genome: dir.champion_genome(),
+        run_dir: dir.path().to_owned(),
+        recording: Some(dir.recording()).filter(|path| path.exists()),
+        ..summary
+    })
 }
 
 /// Gathers the result of a run whose islands have all finished: merges their metrics, hashes their final
@@ -65,22 +83,14 @@ pub struct Summary {
 /// # Errors
 /// If an island's files are missing or damaged, or ours cannot be written.
 pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
-    let islands: Vec<Island<Gene>> = (0..config.islands)
-        .map(|island| checkpoint::load(&dir.checkpoint(island, config.generations)))
-        .map(|checkpoint| checkpoint.map(|checkpoint| checkpoint.island))
-        .collect::<Result<_, _>>()?;
+    let islands = final_islands(dir, config)?;
     let reports: Vec<Vec<Entry>> = (0..config.islands)
         .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
         .collect::<Result<_, StoreError>>()?;
     merge_metrics(dir, &reports)?;
     let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
-    let best = islands
-        .iter()
-        .reduce(
-            |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
-        )
-        .expect("a run has at least one island");
+    let best = champion(&islands);
     let problem = config.problem();
     write_champion(dir, &problem, &best.champion)?;
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
@@ -104,10 +114,26 @@ pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
         wall_seconds,
         run_dir: dir.path().to_owned(),
         recording: Some(dir.recording()).filter(|path| path.exists()),
-        version: env!("CARGO_PKG_VERSION"),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)
+}
+
+fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
+    (0..config.islands)
+        .map(|island| Ok(checkpoint::load(&dir.checkpoint(island, config.generations))?.island))
+        .collect()
+}
+
+/// The island with the best creature ever, the first of equal ones.
+fn champion(islands: &[Island<Gene>]) -> &Island<Gene> {
+    islands
+        .iter()
+        .reduce(
+            |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
+        )
+        .expect("a run has at least one island")
 }
 
 /// Writes a creature as the run's champion: its genome, and its body.
@@ -135,9 +161,20 @@ pub struct Podium {
 }
 
 impl Podium {
-    /// A podium that nobody stands on.
-    pub fn new() -> Self {
-        Self { best: Fitness::WORST }
+    /// The podium of a run that may have had champions already.
+    ///
+    /// # Errors
+    /// If they cannot be read.
+    pub fn of(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
+        let mut best = Fitness::WORST;
+        for island in 0..config.islands {
+            let champions = RecordLog::<Champion<Gene>>::read(&dir.champions(island))?.records;
+            best = champions
+                .iter()
+                .map(|champion| champion.individual.fitness)
+                .fold(best, Fitness::max);
+        }
+        Ok(Self { best })
     }
 
     /// Writes `champion` if it is better than all before it.

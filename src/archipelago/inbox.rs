@@ -17,22 +17,36 @@ pub enum Arrival {
     Duplicate,
     /// Its epoch was taken before.
     Stale,
+    /// Its epoch is so far ahead that nothing was kept of it: it must be asked for when its time comes.
+    TooEarly,
     /// It is from an island that is no in-neighbour.
     Stranger,
 }
+
+/// Epochs of which an inbox keeps outboxes at once. In a ring of N islands with lag L a sender gets
+/// (N - 1)(1 + L) epochs ahead of its reader, and more only while a reborn reader catches up; what is
+/// beyond the window costs that reader a request for each window. Without one, memory would have no bound
+/// against a sender that makes epochs up.
+pub const WINDOW: u32 = 1024;
 
 /// The outboxes that an island has received and not yet taken in.
 #[derive(Debug, Clone)]
 pub struct Inbox<G> {
     sources: Vec<u32>,
     next_epoch: u32,
+    window: u32,
     kept: BTreeMap<(u32, u32), Outbox<G>>,
 }
 
 impl<G> Inbox<G> {
     /// An empty inbox for outboxes of these in-neighbours from `next_epoch` on.
     pub fn new(sources: Vec<u32>, next_epoch: u32) -> Self {
-        Self { sources, next_epoch, kept: BTreeMap::new() }
+        Self { sources, next_epoch, window: WINDOW, kept: BTreeMap::new() }
+    }
+
+    /// The inbox with another window than [`WINDOW`], at least 1 epoch.
+    pub fn with_window(self, window: u32) -> Self {
+        Self { window, ..self }
     }
 
     /// Hands in what arrived.
@@ -42,6 +56,8 @@ impl<G> Inbox<G> {
             Arrival::Stranger
         } else if outbox.epoch < self.next_epoch {
             Arrival::Stale
+        } else if outbox.epoch - self.next_epoch >= self.window {
+            Arrival::TooEarly
         } else if let Entry::Vacant(place) = self.kept.entry(key) {
             place.insert(outbox);
             Arrival::Kept
@@ -90,6 +106,18 @@ mod tests {
         assert_eq!(inbox.accept(outbox(1, 0)), Arrival::Stale);
         assert_eq!(inbox.accept(outbox(7, 1)), Arrival::Stranger);
         assert_eq!(inbox.missing(1), [2]);
+    }
+
+    #[test]
+    fn an_epoch_beyond_the_window_is_dropped_until_its_time_comes() {
+        let mut inbox = Inbox::new(vec![1], 2).with_window(3);
+        assert_eq!(inbox.accept(outbox(1, u32::MAX)), Arrival::TooEarly);
+        assert_eq!(inbox.accept(outbox(1, 5)), Arrival::TooEarly);
+        assert_eq!(inbox.accept(outbox(1, 4)), Arrival::Kept);
+        assert_eq!(inbox.accept(outbox(1, 2)), Arrival::Kept);
+        assert_eq!(inbox.take(2), Some(vec![outbox(1, 2)]));
+        assert_eq!(inbox.accept(outbox(1, 5)), Arrival::Kept);
+        assert_eq!(inbox.missing(5), [0; 0]);
     }
 
     #[test]

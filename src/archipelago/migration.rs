@@ -4,8 +4,10 @@
 //! k - 1 - L of every in-neighbour, where there is one, and ends by sending outbox k. With a lag L of 1 or
 //! more an island evolves on while its neighbours' migrants are under way.
 
+use super::Archipelago;
+use super::island::possible;
 use crate::evolution::population::{Population, ranking};
-use crate::evolution::{Individual, Problem};
+use crate::evolution::{Gene, Individual, Problem};
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 
@@ -31,6 +33,12 @@ impl Migration {
         begins.then_some(before / self.interval)?.checked_sub(1 + self.lag)
     }
 
+    /// The first epoch that an island whose `generation` is behind it will take in from then on.
+    pub fn next_immigration(&self, generation: u32) -> u32 {
+        let next_to_begin = generation.div_ceil(self.interval);
+        next_to_begin.saturating_sub(1).saturating_sub(self.lag)
+    }
+
     /// The epoch whose outbox is sent at the end of `generation`, if any.
     pub fn emigration(&self, generation: u32) -> Option<u32> {
         let ends = generation.is_multiple_of(self.interval);
@@ -47,6 +55,20 @@ pub struct Outbox<G> {
     pub epoch: u32,
     /// Copies of its best individuals, the best first.
     pub migrants: Vec<Individual<G>>,
+}
+
+impl<G: Gene> Outbox<G> {
+    /// Whether island `source` of `archipelago` can have sent this: ask this of what was read from a file.
+    pub fn fits(&self, archipelago: &Archipelago, source: u32) -> bool {
+        let interval = archipelago.migration.interval;
+        let generation = self.epoch.saturating_add(1).saturating_mul(interval);
+        self.island == source
+            && self.migrants.len() <= archipelago.migration.migrants
+            && self
+                .migrants
+                .iter()
+                .all(|migrant| possible(migrant, archipelago, generation).is_ok())
+    }
 }
 
 /// Phase: the outbox of an epoch, copies of the best of the population.
@@ -100,5 +122,21 @@ mod tests {
         assert_eq!(taken, [(11, 0), (16, 1), (21, 2)]);
         let eager = Migration { lag: 0, ..migration };
         assert_eq!(eager.immigration(6), Some(0));
+    }
+
+    #[test]
+    fn the_next_epoch_to_be_taken_in_is_the_one_that_the_generations_to_come_name_first() {
+        for (interval, lag) in (1..=6).flat_map(|interval| (0..=4).map(move |lag| (interval, lag)))
+        {
+            let migration = Migration { interval, migrants: 2, lag };
+            for generation in 0..100 {
+                let first = (generation + 1..).find_map(|later| migration.immigration(later));
+                assert_eq!(
+                    Some(migration.next_immigration(generation)),
+                    first,
+                    "after generation {generation} of {migration:?}"
+                );
+            }
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
 //! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
-//! [`inbox`] is the receiving end of the exchange protocol, a state machine without a channel;
+//! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
+//! sees it: state machines without a channel, a clock or a file;
 //! [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!
@@ -14,12 +15,17 @@ pub mod island;
 pub mod lockstep;
 pub mod migration;
 pub mod topology;
+pub mod voyage;
+
+#[cfg(test)]
+mod tests;
 
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
-pub use island::{Island, Report, Step};
+pub use island::{Island, Misfit, Report, Step};
 pub use migration::{Migration, Outbox};
 pub use topology::Topology;
+pub use voyage::{Deed, Voyage};
 
 use crate::evolution::Strategy;
 use crate::rng::Source;

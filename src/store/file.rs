@@ -6,7 +6,7 @@
 use super::{BYTES_MAX, StoreError};
 use rustix::fs::OFlags;
 use std::fs::{File, OpenOptions};
-use std::io::Read;
+use std::io::{Read, Seek, SeekFrom};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
 
@@ -57,6 +57,16 @@ pub fn open_to_write(path: &Path) -> Result<File, StoreError> {
     options.custom_flags((OFlags::NONBLOCK | OFlags::NOFOLLOW).bits().cast_signed());
     let file = options.open(path).map_err(StoreError::io("open", path))?;
     regular(file, path)
+}
+
+/// Opens a file to go on writing at its end; otherwise like [`open_to_write`].
+///
+/// # Errors
+/// The same.
+pub fn open_to_append(path: &Path) -> Result<File, StoreError> {
+    let mut file = open_to_write(path)?;
+    file.seek(SeekFrom::End(0)).map_err(StoreError::io("open", path))?;
+    Ok(file)
 }
 
 fn regular(file: File, path: &Path) -> Result<File, StoreError> {

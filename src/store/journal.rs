@@ -1,9 +1,10 @@
 //! An island's journal: every outbox that it ever sent, so that any epoch can be asked for again,
 //! whatever died and however far back a reborn neighbour starts. It is also the run's migration log.
 
-use super::{RecordLog, StoreError};
+use super::{RecordLog, StoreError, Tail};
 use crate::archipelago::Outbox;
 use crate::evolution::Gene;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A journal, open for appending: record k is the outbox of epoch k.
@@ -20,6 +21,23 @@ impl<G: Gene> Journal<G> {
     /// If the file cannot be opened or read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         Ok(Self { path: path.to_owned(), log: RecordLog::open(path)? })
+    }
+
+    /// Reads some epochs of a journal that another process writes, as far as they are there and whole.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not ours.
+    pub fn read(path: &Path, epochs: Range<u32>) -> Result<Vec<Outbox<G>>, StoreError> {
+        let mut tail = Tail::of(path);
+        tail.skip(epochs.start as usize)?;
+        let mut outboxes = Vec::new();
+        for epoch in epochs {
+            match tail.next_record()? {
+                Some(outbox) => outboxes.push(in_place(path, outbox, epoch)?),
+                None => break,
+            }
+        }
+        Ok(outboxes)
     }
 
     /// The epochs that it has: those below this one.
@@ -56,13 +74,15 @@ impl<G: Gene> Journal<G> {
     /// If the file cannot be read or is not ours.
     pub fn outbox(&self, epoch: u32) -> Result<Option<Outbox<G>>, StoreError> {
         let outbox = self.log.get(epoch as usize)?;
-        if outbox.as_ref().is_some_and(|outbox| outbox.epoch != epoch) {
-            return Err(StoreError::damaged(
-                &self.path,
-                format!("epoch {epoch} is not in its place"),
-            ));
-        }
+        outbox.map(|outbox| in_place(&self.path, outbox, epoch)).transpose()
+    }
+}
+
+fn in_place<G>(path: &Path, outbox: Outbox<G>, epoch: u32) -> Result<Outbox<G>, StoreError> {
+    if outbox.epoch == epoch {
         Ok(outbox)
+    } else {
+        Err(StoreError::damaged(path, format!("epoch {epoch} is not in its place")))
     }
 }
 
@@ -94,5 +114,8 @@ mod tests {
         assert!(journal.append(&outbox(9, 1)).is_err(), "there would be a hole");
         assert_eq!(journal.outbox(2).expect("it is readable"), Some(outbox(2, 1)));
         assert_eq!(journal.outbox(3).expect("it is readable"), None);
+        let read = |epochs| Journal::read(&path, epochs).expect("it is readable");
+        assert_eq!(read(1..9), [outbox(1, 1), outbox(2, 1)]);
+        assert_eq!(read(7..9), []);
     }
 }

@@ -146,6 +146,7 @@ impl<G: Gene> Logbook<G> {
             return Err(StoreError::Foreign { path: path.to_owned() });
         }
         let damaged = |reason: String| StoreError::damaged(path, reason);
+        island.fits(archipelago, island.index).map_err(|misfit| damaged(misfit.to_string()))?;
         let generation = island.generation;
         let lacks = |log: &str| {
             Err(damaged(format!(

@@ -169,6 +169,24 @@ impl<T: DeserializeOwned> Tail<T> {
     /// # Errors
     /// If the file cannot be read, or the record is whole and not one of this type.
     pub fn next_record(&mut self) -> Result<Option<T>, StoreError> {
+        let Some(body) = self.next_body()? else { return Ok(None) };
+        decode(&body).map(Some).map_err(|reason| StoreError::damaged(&self.path, reason))
+    }
+
+    /// Leaves out the next `count` records, or as many as there are.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn skip(&mut self, count: usize) -> Result<(), StoreError> {
+        for _ in 0..count {
+            if self.next_body()?.is_none() {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    fn next_body(&mut self) -> Result<Option<Vec<u8>>, StoreError> {
         if self.file.is_none() {
             self.file = match file::open_to_read(&self.path) {
                 Ok(file) => Some(file),
@@ -178,10 +196,8 @@ impl<T: DeserializeOwned> Tail<T> {
         }
         let Some(file) = &self.file else { return Ok(None) };
         let body = body_at(file, self.start).map_err(StoreError::io("read", &self.path))?;
-        let Some(body) = body else { return Ok(None) };
-        let record = decode(&body).map_err(|reason| StoreError::damaged(&self.path, reason))?;
-        self.start += record_bytes(body.len()) as u64;
-        Ok(Some(record))
+        self.start += body.as_ref().map_or(0, |body| record_bytes(body.len()) as u64);
+        Ok(body)
     }
 }
 

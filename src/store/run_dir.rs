@@ -50,19 +50,21 @@ impl RunDir {
             let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
         }
-        self.make_folders(islands)?;
+        claim.make_folders(islands)?;
         Ok(claim)
     }
 
-    /// Claims a run that exists, and makes those of its folders that are missing.
+    /// Claims a run that exists, once no other launcher has it.
     ///
     /// # Errors
-    /// If there is no run, another launcher has it, or it has links for folders, which may lead out of it.
-    pub fn reopen(&self, islands: u32) -> Result<Claim, StoreError> {
-        let claim = self.claim()?;
-        self.make_folders(islands)?;
-        claim.sweep();
-        Ok(claim)
+    /// If there is no such folder, or another launcher has it.
+    pub fn claim(&self) -> Result<Claim, StoreError> {
+        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
+        match folder.try_lock() {
+            Ok(()) => Ok(Claim { dir: self.clone(), _folder: folder }),
+            Err(TryLockError::WouldBlock) => Err(StoreError::UnderWay { path: self.0.clone() }),
+            Err(TryLockError::Error(source)) => Err(StoreError::io("lock", &self.0)(source)),
+        }
     }
 
     /// Whether a launcher has claimed it.
@@ -72,21 +74,6 @@ impl RunDir {
     pub fn is_under_way(&self) -> Result<bool, StoreError> {
         let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
         Ok(matches!(folder.try_lock_shared(), Err(TryLockError::WouldBlock)))
-    }
-
-    fn claim(&self) -> Result<Claim, StoreError> {
-        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
-        match folder.try_lock() {
-            Ok(()) => Ok(Claim { dir: self.clone(), _folder: folder }),
-            Err(TryLockError::WouldBlock) => Err(StoreError::UnderWay { path: self.0.clone() }),
-            Err(TryLockError::Error(source)) => Err(StoreError::io("lock", &self.0)(source)),
-        }
-    }
-
-    fn make_folders(&self, islands: u32) -> Result<(), StoreError> {
-        let folders = ["champions", "reports", "migrations", "checkpoints"].map(|f| self.0.join(f));
-        let checkpoints = (0..islands).map(|island| self.checkpoints(island));
-        folders.into_iter().chain([self.partial()]).chain(checkpoints).try_for_each(|f| make(&f))
     }
 
     /// Writes a file of the run, durably and whole or not at all.
@@ -173,7 +160,20 @@ impl RunDir {
 }
 
 impl Claim {
-    /// Removes what processes were writing when they were killed. All of them must have ended.
+    /// Makes the folders of the run that are missing, and removes what was not whole when its processes died.
+    ///
+    /// # Errors
+    /// If they cannot be made, or are links, which may lead out of the run's folder.
+    pub fn make_folders(&self, islands: u32) -> Result<(), StoreError> {
+        let RunDir(root) = &self.dir;
+        let folders = ["champions", "reports", "migrations", "checkpoints"].map(|f| root.join(f));
+        let checkpoints = (0..islands).map(|island| self.dir.checkpoints(island));
+        let partial = [self.dir.partial()];
+        folders.into_iter().chain(partial).chain(checkpoints).try_for_each(|f| make(&f))?;
+        self.sweep();
+        Ok(())
+    }
+
     fn sweep(&self) {
         let leftovers = std::fs::read_dir(self.dir.partial()).into_iter().flatten().flatten();
         for leftover in leftovers {

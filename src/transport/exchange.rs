@@ -80,6 +80,11 @@ impl<G: Gene> Exchange<G> {
         })
     }
 
+    /// How many of its last outboxes an island that was born again sends once more.
+    pub fn history(&self) -> u32 {
+        8
+    }
+
     /// Sends an outbox of this island to all its out-neighbours, and returns how many of them had room for
     /// it. The others will ask for it.
     pub fn publish(&self, outbox: &Outbox<G>) -> Result<usize, TransportError> {

@@ -1,0 +1,146 @@
+//! Whether a run can go on, and how: what `islands resume` checks before it starts anything.
+
+use super::Failure;
+use super::config::Config;
+use super::settings::SettingArgs;
+use crate::creature::Gene;
+use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
+
+/// Claims the run in a folder.
+///
+/// # Errors
+/// If there is none, or it is under way.
+pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
+    if !dir.config().exists() {
+        return Err(Failure::usage(format!(
+            "there is no run in {}: it has no run.toml",
+            dir.path().display()
+        )));
+    }
+    dir.claim().map_err(|error| match error {
+        StoreError::UnderWay { .. } => {
+            Failure::usage(format!("{error}; wait for its end, or stop it first"))
+        }
+        error => error.into(),
+    })
+}
+
+/// The configuration that a claimed run goes on with: its own, and what the user wants otherwise.
+///
+/// # Errors
+/// If that would change what it evolves.
+pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
+    let own = Config::read(&dir.config())?;
+    own.check()?;
+    let launch = own.launch.as_ref();
+    let launch = launch.ok_or_else(|| {
+        Failure::usage(format!(
+            "{} was not written by a run: start one with islands --config {0}",
+            dir.config().display()
+        ))
+    })?;
+    require_version(&launch.version)?;
+    let config = wish.over(own.clone());
+    config.check()?;
+    let changes = differences(&own.settings(), &config.settings());
+    if !changes.is_empty() {
+        return Err(Failure::usage(format!(
+            "a run cannot go on with other settings: {}; leave that out, or start a new run",
+            changes.join(", ")
+        )));
+    }
+    for checkpoint in newest_checkpoints(dir, &config)? {
+        require_same(&checkpoint, &config)?;
+    }
+    Ok(config)
+}
+
+fn require_version(version: &str) -> Result<(), Failure> {
+    let own = env!("CARGO_PKG_VERSION");
+    if version == own {
+        return Ok(());
+    }
+    Err(Failure::usage(format!(
+        "this run was made by version {version} of islands, and this is version {own}, which may evolve otherwise: \
+         use version {version}, or start a new run"
+    )))
+}
+
+/// What a checkpoint knows of the run, against what the run's configuration says.
+fn require_same(checkpoint: &Checkpoint<Gene>, config: &Config) -> Result<(), Failure> {
+    let changes = differences(&checkpoint.settings, &config.settings());
+    if !changes.is_empty() {
+        return Err(Failure::usage(format!(
+            "the run's run.toml was changed since the run began: {}; change it back, or start a new run",
+            changes.join(", ")
+        )));
+    }
+    let reached = checkpoint.island.generation;
+    if config.generations < reached {
+        return Err(Failure::usage(format!(
+            "island {} has evolved {reached} generations already: --generations cannot be {}",
+            checkpoint.island.index, config.generations
+        )));
+    }
+    Ok(())
+}
+
+/// The newest whole checkpoint of each island that has one. What is damaged the island itself deals with.
+fn newest_checkpoints(dir: &RunDir, config: &Config) -> Result<Vec<Checkpoint<Gene>>, Failure> {
+    let mut newest = Vec::new();
+    for island in 0..config.islands {
+        // An island that never got so far has no folder.
+        let checkpoints = Checkpoints::of(dir, island);
+        let Ok(checkpoints) = checkpoints.load::<Gene>() else { continue };
+        for (_, checkpoint) in checkpoints {
+            match checkpoint {
+                Ok(checkpoint) => {
+                    newest.push(checkpoint);
+                    break;
+                }
+                Err(error @ StoreError::Version { .. }) => {
+                    return Err(Failure::usage(error.to_string()));
+                }
+                Err(_) => {}
+            }
+        }
+    }
+    Ok(newest)
+}
+
+/// What differs between two settings, a phrase each.
+fn differences(was: &str, is: &str) -> Vec<String> {
+    let (Ok(was), Ok(is)) = (was.parse::<toml::Table>(), is.parse::<toml::Table>()) else {
+        return vec!["they cannot be read".to_owned()];
+    };
+    let of = |table: &toml::Table, name: &str| {
+        table.get(name).map_or_else(|| "nothing".to_owned(), ToString::to_string)
+    };
+    let names: std::collections::BTreeSet<&String> = was.keys().chain(is.keys()).collect();
+    names
+        .into_iter()
+        .filter(|name| was.get(*name) != is.get(*name))
+        .map(|name| format!("{name} is {}, not {}", of(&was, name), of(&is, name)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_differs_is_named() {
+        let was = Config { seed: Some(7), ..Config::default() };
+        let is = Config {
+            seed: Some(8),
+            population: 30,
+            threads: Some(2),
+            generations: 9,
+            ..was.clone()
+        };
+        let found = differences(&was.settings(), &is.settings());
+        assert_eq!(found, ["population is 24, not 30", "seed is 7, not 8"]);
+        assert!(differences(&was.settings(), &was.settings()).is_empty());
+        assert_eq!(differences("=", ""), ["they cannot be read"]);
+    }
+}

@@ -1,0 +1,268 @@
+//! A run under way: its processes are started, watched, started again, and stopped.
+
+use super::Failure;
+use super::chronicle::Chronicle;
+use super::cli::OutputArgs;
+use super::config::Config;
+use super::console::Stopwatch;
+use super::crew::Crew;
+use super::kinship::{Ear, FINISHED, READY, Role, SERVING, Word};
+use super::mortality::DEATHS_MAX;
+use super::result::Podium;
+use crate::creature::Gene;
+use crate::problems::Locomotion;
+use crate::store::RunDir;
+use crate::transport::{Domain, Harbour, Lookout};
+use std::process::ExitStatus;
+use std::time::Duration;
+
+/// The launcher looks about so often, if nobody says anything.
+const LOOK: Duration = Duration::from_millis(20);
+/// The monitor may film what it has not filmed yet for so long after the islands have finished.
+const LAST_REEL: Duration = Duration::from_secs(300);
+/// What takes longer is worth a word to the user.
+const SOON: Duration = Duration::from_secs(1);
+/// Who is asked to stop finishes what it is writing, and if it is quick the generation that it is in.
+const LAST_WORDS: Duration = Duration::from_secs(5);
+
+/// Who watches over a run.
+pub struct Supervisor<'a> {
+    dir: &'a RunDir,
+    harbour: &'a Harbour<Gene>,
+    problem: Locomotion,
+    ear: Ear,
+    crew: Crew,
+    lookout: Lookout<Gene>,
+    podium: Podium,
+    chronicle: Chronicle,
+    watch: Stopwatch,
+}
+
+impl<'a> Supervisor<'a> {
+    /// Starts every process of a run.
+    ///
+    /// # Errors
+    /// If one cannot be started, or the run's log cannot be written.
+    pub fn launch(
+        config: &'a Config,
+        dir: &'a RunDir,
+        domain: &Domain,
+        harbour: &'a Harbour<Gene>,
+        ear: Ear,
+        output: &OutputArgs,
+    ) -> Result<Self, Failure> {
+        let mut supervisor = Self {
+            problem: config.problem(),
+            ear,
+            crew: Crew::new(dir.clone(), config.clone(), output.view_address),
+            lookout: Lookout::open(domain, &config.archipelago())?,
+            podium: Podium::of(dir, config)?,
+            chronicle: Chronicle::open(dir, config, output.quiet)?,
+            watch: Stopwatch::start(),
+            dir,
+            harbour,
+        };
+        supervisor.chronicle.tell(&format!(
+            "{} islands × {} creatures evolve for {} generations, seed {}, in {}",
+            config.islands,
+            config.population,
+            config.generations,
+            config.seed.unwrap_or_default(),
+            dir.path().display()
+        ));
+        for island in 0..config.islands {
+            supervisor.crew.start(Role::Island(island))?;
+        }
+        if cfg!(feature = "view") && !output.no_monitor {
+            supervisor.crew.start(Role::Monitor)?;
+        }
+        Ok(supervisor)
+    }
+
+    /// Watches over the run until every island has evolved all its generations, and stops everybody.
+    ///
+    /// # Errors
+    /// If the user interrupts it, or an island cannot go on; nothing is lost then.
+    pub fn see_to_the_end(mut self) -> Result<(), Failure> {
+        let watched = self.watch_over();
+        self.chronicle.finish();
+        if let Err(failure) = &watched {
+            self.chronicle.note(&failure.message);
+        }
+        self.stop(watched.is_ok());
+        watched
+    }
+
+    fn watch_over(&mut self) -> Result<(), Failure> {
+        while !self.crew.is_finished() {
+            self.look()?;
+            if self.ear.heard_stop() {
+                let reached = self.crew.generation();
+                let reached =
+                    reached.map_or_else(String::new, |g| format!(" after generation {g}"));
+                return Err(Failure::interrupted(format!(
+                    "interrupted{reached}; {}",
+                    self.way_back()
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes in what the others say and report, for a moment, and replaces those that have died.
+    fn look(&mut self) -> Result<(), Failure> {
+        let fallen = self.listen(LOOK);
+        self.take_reports()?;
+        fallen.into_iter().try_for_each(|role| self.replace(role))
+    }
+
+    /// Hears everybody out, and returns who has died.
+    fn listen(&mut self, within: Duration) -> Vec<Role> {
+        let mut fallen = Vec::new();
+        let mut word = self.crew.hear(within);
+        while let Some((role, what)) = word {
+            match what {
+                Word::Said(line) => self.heed(role, &line),
+                Word::Complained(line) => self.hear_complaint(role, &line),
+                Word::Fell => fallen.push(role),
+            }
+            word = self.crew.hear(Duration::ZERO);
+        }
+        fallen
+    }
+
+    fn heed(&mut self, role: Role, line: &str) {
+        if line == FINISHED {
+            self.crew.post(role).is_finished = true;
+        } else if let Some(generation) = line.strip_prefix(READY) {
+            self.welcome(role, generation.parse().ok());
+        } else if let Some(address) = line.strip_prefix(SERVING) {
+            self.crew.post(role).is_ready();
+            self.chronicle.tell(&format!("watch it live:  rerun {address}"));
+        } else {
+            self.chronicle.tell(&format!("{role}: {line}"));
+        }
+    }
+
+    /// An island can evolve what comes after a generation, none if it begins from the seed.
+    fn welcome(&mut self, role: Role, generation: Option<u32>) {
+        let post = self.crew.post(role);
+        post.generation = generation;
+        let after = match generation {
+            Some(generation) => format!("after generation {generation}"),
+            None => "from the seed".to_owned(),
+        };
+        if let Some(seconds) = post.is_ready() {
+            self.chronicle.tell(&format!("{role} goes on {after}, {seconds:.3} s after its death"));
+        } else if generation.is_some() {
+            self.chronicle.tell(&format!("{role} goes on {after}"));
+        }
+    }
+
+    fn hear_complaint(&mut self, role: Role, line: &str) {
+        self.crew.post(role).complains(line);
+        let line = line.strip_prefix("warning: ").unwrap_or(line);
+        self.chronicle.warn(&format!("{role}: {line}"));
+    }
+
+    fn take_reports(&mut self) -> Result<(), Failure> {
+        for sighting in self.lookout.receive() {
+            let report = &sighting.report;
+            self.crew.post(Role::Island(report.island)).generation = Some(report.generation);
+            self.chronicle.update(&self.problem, report, self.watch.seconds());
+            if let Some(champion) = &sighting.champion {
+                self.podium.receive(self.dir, &self.problem, champion)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Starts somebody again who has died, unless it would die again.
+    fn replace(&mut self, role: Role) -> Result<(), Failure> {
+        let Some(status) = self.crew.bury(role)? else { return Ok(()) };
+        // Its last words are here only now; who else has fallen is found by its silence.
+        let others = self.listen(Duration::ZERO);
+        if !self.dir.config().exists() {
+            return Err(Failure::failed(format!(
+                "the run's folder {} is gone: somebody has removed it while the run was under way",
+                self.dir.path().display()
+            )));
+        }
+        match self.crew.post(role).leave_hope(status) {
+            true => self.start_again(role, status)?,
+            false if role == Role::Monitor => self.chronicle.warn(&format!(
+                "the monitor ended {DEATHS_MAX} times ({status}); the run goes on without a film"
+            )),
+            false => return Err(self.despair(role, status)),
+        }
+        others.into_iter().try_for_each(|role| self.replace(role))
+    }
+
+    fn start_again(&mut self, role: Role, status: ExitStatus) -> Result<(), Failure> {
+        self.chronicle.warn(&format!("{role} died ({status}); it is started again"));
+        if role != Role::Monitor
+            && let Err(error) = self.harbour.cleanup_dead_nodes()
+        {
+            // Its successor may find a place all the same; if not, it says so itself.
+            self.chronicle.warn(&error.to_string());
+        }
+        self.crew.start(role)
+    }
+
+    fn despair(&mut self, role: Role, status: ExitStatus) -> Failure {
+        let post = self.crew.post(role);
+        let after = match post.generation {
+            Some(generation) => format!("after generation {generation}"),
+            None => "in its first generation".to_owned(),
+        };
+        let complaint = post.take_complaint();
+        let words = complaint.map_or_else(String::new, |words| {
+            format!(", saying “{}”", words.strip_prefix("error: ").unwrap_or(&words))
+        });
+        Failure::failed(format!(
+            "{role} ended by itself {DEATHS_MAX} times {after} ({status}){words}; the run stops, and {}",
+            self.way_back()
+        ))
+    }
+
+    fn way_back(&self) -> String {
+        format!("nothing is lost; go on with: islands resume {}", self.dir.path().display())
+    }
+
+    /// Asks everybody to stop, and waits for them.
+    fn stop(&mut self, is_finished: bool) {
+        let ear = self.ear.clone();
+        let is_island = |role| role != Role::Monitor;
+        self.crew.ask_to_stop(is_island);
+        self.crew.await_end(is_island, LAST_WORDS, || ear.heard_hurry());
+        self.crew.kill(is_island);
+        while self.crew.has(Role::Monitor) && !ear.heard_hurry() {
+            self.let_monitor_end(if is_finished { LAST_REEL } else { LAST_WORDS });
+        }
+    }
+
+    /// The monitor films what is left; if it dies over it, another one does.
+    fn let_monitor_end(&mut self, most: Duration) {
+        let ear = self.ear.clone();
+        let is_monitor = |role| role == Role::Monitor;
+        self.crew.ask_to_stop(is_monitor);
+        let is_quick = self.crew.await_end(is_monitor, SOON, || ear.heard_hurry());
+        if !is_quick {
+            self.chronicle.tell("the monitor films the last champions …");
+        }
+        if !is_quick && !self.crew.await_end(is_monitor, most, || ear.heard_hurry()) {
+            self.chronicle.warn("the monitor was still filming and was stopped; the film has gaps");
+            return self.crew.kill(is_monitor);
+        }
+        let Ok(Some(status)) = self.crew.bury(Role::Monitor) else { return };
+        self.listen(Duration::ZERO);
+        let fails = !status.success();
+        if fails && self.crew.post(Role::Monitor).leave_hope(status) {
+            if let Err(failure) = self.start_again(Role::Monitor, status) {
+                self.chronicle.warn(&failure.message);
+            }
+        } else if fails {
+            self.chronicle.warn(&format!("the monitor failed ({status}); the film has gaps"));
+        }
+    }
+}

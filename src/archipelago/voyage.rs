@@ -1,0 +1,157 @@
+//! The exchange protocol as an island sees it, a state machine: what arrived goes in, what to do next
+//! comes out.
+//!
+//! Channels may lose, repeat, delay and reorder what is sent, and every island may die at any time and be
+//! born again from an older state, even from its seed. The voyage ends in the same bits all the same, if its
+//! owner keeps four rules:
+//!
+//! 1. An outbox is in the journal, durably, before the state after it is saved: from that state on it is
+//!    never evolved again, and neighbours may need it for as long as the run lasts. It is there before it is
+//!    sent, too, so that the journal knows all that ever travelled.
+//! 2. Who is asked for an epoch sends it and what follows it out of the journal, also when its own voyage
+//!    is over.
+//! 3. What is handed to [`Voyage::begin`] was saved by a voyage of the same island.
+//! 4. [`Voyage::advance`] is called again and again, also while it has nothing to do.
+//!
+//! That a reborn island sends again what it sent last is no rule: it only spares its neighbours a request.
+
+use super::inbox::{Arrival, Inbox};
+use super::island::{self, Island, Step};
+use super::{Archipelago, Outbox};
+use crate::evolution::Problem;
+use std::time::Duration;
+
+/// Without what it waits for, an island asks for it after so long, and again each time after as long.
+pub const PATIENCE: Duration = Duration::from_millis(200);
+
+/// An island under way: its state, what it waits for, and how far it has to go.
+pub struct Voyage<'a, P: Problem> {
+    problem: &'a P,
+    archipelago: &'a Archipelago,
+    index: u32,
+    generations: u32,
+    island: Option<Island<P::Gene>>,
+    inbox: Inbox<P::Gene>,
+    // When it began to wait or last asked or got something, if it waits.
+    silent_since: Option<Duration>,
+    asks_at_once: bool,
+}
+
+/// What an island does next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Deed<G> {
+    /// It has evolved a generation. Before its owner calls [`Voyage::advance`] again, it must in this order
+    /// append the outbox to the journal, record the generation and save the island where that is due, and
+    /// send the outbox. An outbox whose epoch the journal has already is the same to the last bit.
+    Evolved(Box<Step<G>>),
+    /// It asks these in-neighbours for their outboxes from `epoch` on.
+    Ask {
+        /// The in-neighbours, ascending; at least one.
+        sources: Vec<u32>,
+        /// The first epoch that is missing.
+        epoch: u32,
+    },
+    /// There is nothing to do until something arrives, or time goes by.
+    Wait,
+    /// It has evolved all its generations, and only serves its neighbours from then on.
+    Arrived,
+}
+
+impl<'a, P: Problem> Voyage<'a, P> {
+    /// Island `index` on its way to `generations`, from the state that was `saved` last, which must be
+    /// one that [`Island::fits`], or else from the seed.
+    pub fn begin(
+        problem: &'a P,
+        archipelago: &'a Archipelago,
+        index: u32,
+        generations: u32,
+        saved: Option<Island<P::Gene>>,
+    ) -> Self {
+        let generation = saved.as_ref().map_or(0, |island| island.generation);
+        let next_epoch = archipelago.migration.next_immigration(generation);
+        Self {
+            problem,
+            archipelago,
+            index,
+            generations,
+            inbox: Inbox::new(archipelago.in_neighbours(index), next_epoch),
+            silent_since: None,
+            // What was on its way to the one that saved this state died with it.
+            asks_at_once: saved.is_some(),
+            island: saved,
+        }
+    }
+
+    /// The island as it is; none before generation 0 was evolved.
+    pub fn island(&self) -> Option<&Island<P::Gene>> {
+        self.island.as_ref()
+    }
+
+    /// Hands in what arrived.
+    pub fn receive(&mut self, outbox: Outbox<P::Gene>) -> Arrival {
+        let is_due = self.due_epoch() == Some(outbox.epoch);
+        let arrival = self.inbox.accept(outbox);
+        if is_due && arrival == Arrival::Kept {
+            self.silent_since = None;
+        }
+        arrival
+    }
+
+    /// Does what is next, and says what that was. `now` is a reading of a monotonic clock, from any start.
+    pub fn advance(&mut self, now: Duration) -> Deed<P::Gene> {
+        if self.has_arrived() {
+            return Deed::Arrived;
+        }
+        if let Some((epoch, sources)) = self.waits_for() {
+            return if self.asks(now) { Deed::Ask { sources, epoch } } else { Deed::Wait };
+        }
+        self.silent_since = None;
+        let immigrants = self.due_epoch().and_then(|epoch| self.inbox.take(epoch));
+        let Self { problem, archipelago, .. } = *self;
+        let step = match self.island.take() {
+            None => island::genesis(problem, archipelago, self.index),
+            Some(island) => {
+                island::step(island, &immigrants.unwrap_or_default(), problem, archipelago)
+            }
+        };
+        self.island = Some(step.island.clone());
+        Deed::Evolved(Box::new(step))
+    }
+
+    /// The epoch that it cannot go on without, and the in-neighbours whose outbox of it is missing; none if
+    /// it need not wait.
+    pub fn waits_for(&self) -> Option<(u32, Vec<u32>)> {
+        let epoch = self.due_epoch()?;
+        let missing = self.inbox.missing(epoch);
+        (!missing.is_empty()).then_some((epoch, missing))
+    }
+
+    /// The epoch that the next generation takes in.
+    fn due_epoch(&self) -> Option<u32> {
+        let island = self.island.as_ref().filter(|_| !self.has_arrived())?;
+        self.archipelago.migration.immigration(island.generation + 1)
+    }
+
+    fn has_arrived(&self) -> bool {
+        self.island.as_ref().is_some_and(|island| island.generation >= self.generations)
+    }
+
+    /// Whether it has waited for long enough; if so it begins to wait anew.
+    fn asks(&mut self, now: Duration) -> bool {
+        let since = *self.silent_since.get_or_insert(now);
+        let has_waited = now.saturating_sub(since) >= PATIENCE;
+        let asks = std::mem::take(&mut self.asks_at_once) || has_waited;
+        if asks {
+            self.silent_since = Some(now);
+        }
+        asks
+    }
+}
+
+#[cfg(test)]
+impl<P: Problem> Voyage<'_, P> {
+    /// The voyage with another window of its inbox.
+    pub(super) fn with_window(self, window: u32) -> Self {
+        Self { inbox: self.inbox.with_window(window), ..self }
+    }
+}
