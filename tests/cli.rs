@@ -171,8 +171,8 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
             cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
-            cannot write the recording good.csv/film.rrd: Failed to create file: Not a directory (os error 20), path: good.csv/film.rrd; choose another file with --out
-            cannot use nowhere/run.toml: No such file or directory (os error 2); name a file such as a run's run.toml"#]],
+            cannot write the recording good.csv/film.rrd: Not a directory (os error 20); choose another file with --out
+            there is no run in nowhere: it has no run.toml"#]],
     );
 }
 

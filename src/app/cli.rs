@@ -66,7 +66,7 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Film genomes for the Rerun viewer
     Replay(ReplayArgs),
-    /// Record and serve a run that is under way; `run` starts one by itself
+    /// Record and serve a run, under way or over; `run` starts one by itself
     Monitor(MonitorArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
@@ -184,9 +184,13 @@ pub struct ReplayArgs {
 /// Watching.
 #[derive(Debug, Args)]
 pub struct MonitorArgs {
-    /// Folder of a run that is under way
+    /// Folder of a run, under way or over
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
+    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
+    /// watch, and show something else to the others who watch, without a password
+    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into())]
+    pub view_address: IpAddr,
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
     pub parent: Option<i32>,
