@@ -9,3 +9,4 @@ mod recording;
 mod run;
 mod support;
 mod tidy;
+mod verify;

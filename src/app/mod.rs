@@ -3,7 +3,8 @@
 //! `cli` is what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
 //! process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with
 //! it, and stop when it closes their standard input. It shows their progress (`progress`), and at the end
-//! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes.
+//! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes;
+//! `verify` looks whether a run's folder holds what it claims.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
@@ -21,6 +22,8 @@ mod monitor;
 mod progress;
 mod replay;
 mod result;
+mod table;
+mod verify;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -37,6 +40,7 @@ pub fn main() -> ExitCode {
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),
         Some(Command::Monitor(args)) => monitor::run(&args),
+        Some(Command::Verify(args)) => verify::run(&args),
         Some(Command::Island(args)) => island::run(&args),
     };
     match done {
