@@ -1,123 +1,20 @@
 //! `verify` finds whatever is not as the run left it, names it, and changes nothing.
 
-use crate::support::{Ending, TINY, World, until};
+mod tools;
+
+use crate::support::{TINY, World, until};
 use islands::archipelago::Outbox;
 use islands::creature::Gene;
 use islands::evolution::Fitness;
-use islands::store::{Champion, Checkpoint, Entry, RecordLog, RunDir, checkpoint};
+use islands::store::{Champion, Checkpoint, Entry, RecordLog, RunDir};
 use serde_json::Value;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::SystemTime;
+use tools::{a_bit_more, changed, cut, evolved, finds, flip, forge, forge_state, lengthen, verify};
 
 /// A run that nobody waits for, whose islands exchange, with champions that are not soon the last.
 const ENDLESS: &str = "--population 4 --generations 1000000 --genes 1 --migration-interval 1";
-
-/// A world in which two islands have evolved in the folder `run`.
-fn evolved() -> World {
-    let world = World::new();
-    world.digest("run", &format!("--n 2 --seed 3 {TINY}"));
-    world
-}
-
-/// A copy of that run which something is done to.
-fn changed(world: &World, change: impl FnOnce(&RunDir)) -> RunDir {
-    let path = world.path("changed");
-    if path.exists() {
-        fs::remove_dir_all(&path).unwrap();
-    }
-    let copied = Command::new("cp").arg("-a").arg(world.path("run")).arg(&path).status().unwrap();
-    assert!(copied.success());
-    let dir = RunDir::at(path);
-    change(&dir);
-    dir
-}
-
-fn verify(world: &World, arguments: &str) -> Ending {
-    let before = contents(&world.path(""));
-    let ending = world.islands(&format!("verify {arguments}"));
-    assert!(contents(&world.path("")) == before, "verify changed something");
-    ending
-}
-
-/// Changes a copy of the run and verifies it: something must be found, and that file be named.
-fn finds(
-    world: &World,
-    file: impl FnOnce(&RunDir) -> PathBuf,
-    change: impl FnOnce(&RunDir),
-) -> Value {
-    changed(world, change);
-    let ending = verify(world, "changed --json");
-    let verdict = ending.json();
-    assert_eq!((ending.code, &verdict["ok"]), (Some(1), &false.into()), "{ending:?}");
-    let file = file(&RunDir::at("changed"));
-    let name = file.to_str().unwrap();
-    let named = |said: &Value| said.as_str().unwrap().contains(name);
-    assert!(verdict["damaged"].as_array().unwrap().iter().any(named), "{name}: {verdict}");
-    let sentence =
-        ending.stderr.strip_prefix("error: the run in changed does not hold what it claims");
-    assert_eq!(sentence.unwrap().trim_end().lines().count(), 1, "{ending:?}");
-    verdict
-}
-
-/// Every file below a folder: its bytes and when it was changed.
-fn contents(folder: &Path) -> BTreeMap<PathBuf, (Vec<u8>, SystemTime)> {
-    let mut contents = BTreeMap::new();
-    let mut left = vec![folder.to_owned()];
-    while let Some(path) = left.pop() {
-        let status = fs::symlink_metadata(&path).unwrap();
-        if status.is_dir() {
-            left.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
-        }
-        let bytes = if status.is_file() { fs::read(&path).unwrap() } else { Vec::new() };
-        contents.insert(path, (bytes, status.modified().unwrap()));
-    }
-    contents
-}
-
-fn flip(path: &Path, at: impl FnOnce(usize) -> usize) {
-    let mut bytes = fs::read(path).unwrap();
-    let at = at(bytes.len());
-    bytes[at] ^= 1;
-    fs::write(path, bytes).unwrap();
-}
-
-fn cut(path: &Path, bytes: usize) {
-    let whole = fs::read(path).unwrap();
-    fs::write(path, &whole[..whole.len() - bytes]).unwrap();
-}
-
-/// Writes a log again, with right checksums.
-fn forge<T: serde::Serialize + serde::de::DeserializeOwned>(
-    path: &Path,
-    forge: impl FnOnce(&mut Vec<T>),
-) {
-    let mut records = RecordLog::<T>::read(path).unwrap().records;
-    forge(&mut records);
-    let mut log = RecordLog::open(path).unwrap();
-    log.truncate(0).unwrap();
-    records.iter().for_each(|record| log.append(record).unwrap());
-}
-
-/// Writes a checkpoint again, with a right checksum.
-fn forge_state(
-    dir: &RunDir,
-    island: u32,
-    generation: u32,
-    forge: impl FnOnce(&mut Checkpoint<Gene>),
-) {
-    let path = dir.checkpoint(island, generation);
-    let mut saved = checkpoint::load(&path).unwrap();
-    forge(&mut saved);
-    checkpoint::save(dir.path(), &path, &saved).unwrap();
-}
-
-/// The next better fitness that there is.
-fn a_bit_more(fitness: &mut Fitness) {
-    *fitness = Fitness::new(fitness.get().next_up());
-}
 
 #[test]
 fn a_sound_run_is_verified_with_its_digest() {
@@ -157,6 +54,7 @@ fn a_flipped_bit_is_found_in_every_file_that_has_a_checksum() {
             finds(&world, file, |dir| flip(&file(dir), place));
         }
         finds(&world, file, |dir| cut(&file(dir), 1));
+        finds(&world, file, |dir| lengthen(&file(dir)));
     }
     for file in &files[..4] {
         finds(&world, file, |dir| fs::remove_file(file(dir)).unwrap());
@@ -253,8 +151,7 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
         |entries| a_bit_more(&mut entries[3].report.statistics.best),
         |entries| entries.push(entries[3]),
     ];
-    for (index, wrong) in reports.into_iter().enumerate() {
-        println!("reports {index}");
+    for wrong in reports {
         finds(&world, |dir| dir.reports(1), |dir| forge(&dir.reports(1), wrong));
     }
     let champions: [fn(&mut Champions); 4] = [
@@ -263,8 +160,7 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
         |champions| champions.truncate(0),
         |champions| champions.last_mut().unwrap().individual.id.index += 1,
     ];
-    for (index, wrong) in champions.into_iter().enumerate() {
-        println!("champions {index}");
+    for wrong in champions {
         finds(&world, |dir| dir.champions(1), |dir| forge(&dir.champions(1), wrong));
     }
     let outboxes: [fn(&mut Outboxes); 5] = [
@@ -274,8 +170,7 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
         |outboxes| outboxes[1].migrants[0].genome[0].0[0] = 1.0,
         |outboxes| a_bit_more(&mut outboxes[1].migrants[0].fitness),
     ];
-    for (index, wrong) in outboxes.into_iter().enumerate() {
-        println!("outboxes {index}");
+    for wrong in outboxes {
         finds(&world, |dir| dir.migrations(1), |dir| forge(&dir.migrations(1), wrong));
     }
 }
@@ -353,15 +248,10 @@ fn an_interrupted_run_is_verified_and_has_no_digest_yet() {
     let verdict = verify(&world, "run --json").json();
     assert_eq!((&verdict["finished"], &verdict["digest"]), (&false.into(), &Value::Null));
 
-    // Longer than any record, so that it is torn.
-    let torn = |path: &Path| {
-        let bytes = [fs::read(path).unwrap(), vec![0xee; 7]].concat();
-        fs::write(path, bytes).unwrap();
-    };
     let logs: [fn(&RunDir) -> PathBuf; 3] =
         [|dir| dir.reports(0), |dir| dir.champions(0), |dir| dir.migrations(0)];
     for log in logs {
-        changed(&world, |dir| torn(&log(dir)));
+        changed(&world, |dir| lengthen(&log(dir)));
         let verdict = verify(&world, "changed --json").json();
         assert_eq!(verdict["ok"], true, "{verdict}");
         let note = "ends in a torn record of 7 bytes, which a resume writes again";
@@ -441,7 +331,11 @@ fn a_folder_that_holds_anything_is_damaged_and_no_trap() {
             });
         }
     }
-    for settings in ["", "islands = 4000000000", "population = 0\n[launch]", "seed = 1"] {
+    let escape = "\"\\u001b[2J\" = 1";
+    for settings in [escape, "", "islands = 4000000000", "population = 0\n[launch]", "seed = 1"] {
         finds(&world, RunDir::config, |dir| fs::write(dir.config(), settings).unwrap());
+        let ending = verify(&world, "changed");
+        let moves_the_cursor = |text: &str| text.contains('\u{1b}');
+        assert!(![ending.stdout, ending.stderr].iter().any(|text| moves_the_cursor(text)));
     }
 }

@@ -17,9 +17,9 @@ pub fn lay_out<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// What came from a file may hold what moves the cursor of a terminal.
-fn harmless(cell: &str) -> String {
-    cell.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+/// Text that came from a file, without what moves the cursor of a terminal.
+pub fn harmless(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
 #[cfg(test)]

@@ -35,13 +35,8 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
         return Err(Failure::usage("--threads must be at least 1"));
     }
     let dir = RunDir::at(&args.dir);
-    let config = configuration(&dir)?;
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads.unwrap_or(0))
-        .build()
-        .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let verdict = match config {
-        Ok(config) => pool.install(|| examine(&dir, &config, args.thorough)),
+    let verdict = match configuration(&dir)? {
+        Ok(config) => pool(args)?.install(|| examine(&dir, &config, args.thorough)),
         Err(reason) => Verdict::without_configuration(&dir, reason),
     };
     let wrong = verdict.wrong();
@@ -53,14 +48,20 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
         true => print(&verdict.json(&dir)),
         false => print(&verdict.table()),
     }
-    match wrong.first() {
-        None => Ok(()),
-        Some(first) => Err(Failure::failed(format!(
-            "the run in {} does not hold what it claims, in {}: {first}",
-            dir.path().display(),
-            check::counted(wrong.len(), "place"),
-        ))),
-    }
+    let Some(first) = wrong.first() else { return Ok(()) };
+    Err(Failure::failed(format!(
+        "the run in {} does not hold what it claims, in {}: {}",
+        dir.path().display(),
+        check::counted(wrong.len(), "place"),
+        table::harmless(first),
+    )))
+}
+
+fn pool(args: &VerifyArgs) -> Result<rayon::ThreadPool, Failure> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(args.threads.unwrap_or(0))
+        .build()
+        .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))
 }
 
 /// The configuration of the run in a folder, or what is wrong with it.

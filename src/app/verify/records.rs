@@ -185,22 +185,9 @@ fn read_log<T: Serialize + DeserializeOwned>(
             return Vec::new();
         }
     };
-    let is_torn = torn_bytes > 0;
-    let tail = match is_torn {
-        true => format!(", followed by {torn_bytes} bytes that are none"),
-        false => String::new(),
-    };
-    let found = counted(records.len(), "whole record");
-    let judged = if records.len() < *span.start() {
-        Err(format!("it has {found} where there must be {}{tail}", span.start()))
-    } else if records.len() > *span.end() {
-        Err(format!("it has {found} where there can be {}{tail}", span.end()))
-    } else if is_torn && terms.finished {
-        Err(format!("it has {found}{tail}"))
-    } else {
-        rule(&records)
-    };
-    if is_torn && judged.is_ok() {
+    let judged =
+        judge_length(records.len(), torn_bytes, span, terms.finished).and_then(|()| rule(&records));
+    if torn_bytes > 0 && judged.is_ok() {
         check.note(format!(
             "ok, but {} ends in a torn record of {torn_bytes} bytes, which a resume writes again",
             path.display()
@@ -208,4 +195,27 @@ fn read_log<T: Serialize + DeserializeOwned>(
     }
     check.judge(path, judged);
     records
+}
+
+/// Whether a log may have so many whole records, and what follows them.
+fn judge_length(
+    records: usize,
+    torn_bytes: u64,
+    span: RangeInclusive<usize>,
+    finished: bool,
+) -> Result<(), String> {
+    let found = counted(records, "whole record");
+    let tail = match torn_bytes {
+        0 => String::new(),
+        bytes => format!(", followed by {bytes} bytes that are none"),
+    };
+    if records < *span.start() {
+        Err(format!("it has {found} where there must be {}{tail}", span.start()))
+    } else if records > *span.end() {
+        Err(format!("it has {found} where there can be {}{tail}", span.end()))
+    } else if torn_bytes > 0 && finished {
+        Err(format!("it has {found}{tail}"))
+    } else {
+        Ok(())
+    }
 }

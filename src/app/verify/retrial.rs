@@ -6,6 +6,7 @@ use super::check::{Check, counted};
 use super::rules::may_have_lived;
 use crate::creature::Gene;
 use crate::evolution::{Fitness, Individual, Problem};
+use crate::problems::Locomotion;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -80,34 +81,47 @@ impl Retrial {
 
 /// Simulates on the threads of the current rayon pool, equal genomes once.
 pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
-    let problem = config.problem();
-    let mut found: BTreeMap<&[u8], Option<Fitness>> =
-        claims.iter().map(|claim| (key(claim), None)).collect();
     let genomes: BTreeMap<&[u8], &[Gene]> = claims
         .iter()
         .map(|claim| (key(claim), claim.individual.genome.as_slice()))
         .filter(|(_, genome)| may_have_lived(genome, config))
         .collect();
-    let genomes: Vec<_> = genomes.into_iter().collect();
-    let meter = Meter::new(genomes.len());
-    let evaluate = |(_, genome): &(&[u8], &[Gene])| {
-        let evaluation = problem.evaluate(genome);
-        meter.tick();
-        Some(evaluation.fitness)
-    };
-    let fitness: Vec<_> = genomes.par_iter().with_max_len(1).map(evaluate).collect();
-    meter.finish();
-    found.extend(genomes.iter().map(|(key, _)| *key).zip(fitness));
+    let found = evaluate(genomes, &config.problem());
     let mismatch = |claim: &Claim| {
-        let (recorded, found) = (claim.individual.fitness, found[key(claim)]);
-        let Claim { who, island, generation, .. } = *claim;
-        let (recorded_as, found_as) = (recorded.saturated(), found.map(Fitness::saturated));
-        (found.map(|found| found.get().to_bits()) != Some(recorded.get().to_bits()))
-            .then_some(Mismatch { who, island, generation, recorded: recorded_as, found: found_as })
+        let Claim { who, island, generation, individual } = *claim;
+        let (recorded, found) = (individual.fitness, found.get(key(claim)).copied());
+        let bits = |fitness: Fitness| fitness.get().to_bits();
+        let is_right = found.map(bits) == Some(bits(recorded));
+        (!is_right).then(|| Mismatch {
+            who,
+            island,
+            generation,
+            recorded: recorded.saturated(),
+            found: found.map(Fitness::saturated),
+        })
     };
-    Retrial { simulated: genomes.len(), mismatches: claims.iter().filter_map(mismatch).collect() }
+    let mismatches = claims.iter().filter_map(mismatch).collect();
+    Retrial { simulated: found.len(), mismatches }
 }
 
+/// The fitness of each genome.
+fn evaluate<'a>(
+    genomes: BTreeMap<&'a [u8], &[Gene]>,
+    problem: &Locomotion,
+) -> BTreeMap<&'a [u8], Fitness> {
+    let genomes: Vec<_> = genomes.into_iter().collect();
+    let meter = Meter::new(genomes.len());
+    let evaluate = |&(key, genome): &(_, &[Gene])| {
+        let evaluation = problem.evaluate(genome);
+        meter.tick();
+        (key, evaluation.fitness)
+    };
+    let found = genomes.par_iter().with_max_len(1).map(evaluate).collect();
+    meter.finish();
+    found
+}
+
+/// Equal genomes have equal bytes.
 fn key<'a>(claim: &Claim<'a>) -> &'a [u8] {
     bytemuck::cast_slice(&claim.individual.genome)
 }
