@@ -12,3 +12,4 @@ mod run;
 mod support;
 mod survival;
 mod tidy;
+mod verify;

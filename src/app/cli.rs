@@ -68,6 +68,8 @@ pub enum Command {
     Replay(ReplayArgs),
     /// Record and serve a run, under way or over; `run` starts one by itself
     Monitor(MonitorArgs),
+    /// Check that a run's folder holds what it claims, by simulating its champions again
+    Verify(VerifyArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
     Island(IslandArgs),
@@ -194,6 +196,37 @@ pub struct MonitorArgs {
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
     pub parent: Option<i32>,
+}
+
+/// Checking a run.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Every checksum is checked, the records of each island are compared with one another and with
+its checkpoints, the digest is computed again from the final populations, and every champion is
+simulated again and must get its fitness to the last bit. Nothing in the folder is changed. A run
+that was interrupted or killed may be verified as well: it has no digest yet, and a record that
+was being written when it died is no damage.
+
+Exit codes: 0 all is as it is claimed, 1 something is not, 2 there is no run or it is under way.
+
+Examples:
+  islands verify runs/walk-seed7               what the run claims holds here too
+  islands verify runs/walk-seed7 --thorough    so does the fitness of everybody else
+  islands verify runs/walk-seed7 --json | tail -n 1 | jq .ok"
+)]
+pub struct VerifyArgs {
+    /// Folder of a run that is not under way
+    #[arg(value_name = "RUN_DIR")]
+    pub dir: PathBuf,
+    /// Simulate the newest populations and all migrants again too, not only the champions
+    #[arg(long)]
+    pub thorough: bool,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "K")]
+    pub threads: Option<usize>,
+    /// Print the result as one JSON object, the last line of standard output
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// One island.

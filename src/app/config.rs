@@ -127,7 +127,15 @@ impl Config {
             |reason: String| Failure::usage(format!("cannot use {}: {reason}", path.display()));
         let text = std::fs::read_to_string(path)
             .map_err(|error| wrong(format!("{error}; name a file such as a run's run.toml")))?;
-        toml::from_str(&text).map_err(|error| wrong(one_line(&error, &text)))
+        Self::parse(&text).map_err(wrong)
+    }
+
+    /// Reads what a configuration file says.
+    ///
+    /// # Errors
+    /// What is wrong with it, if it is no TOML or says something that a configuration does not know.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| one_line(&error, text))
     }
 
     /// The file that says the same.
