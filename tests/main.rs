@@ -3,6 +3,8 @@
 mod cli;
 mod course;
 mod determinism;
+mod format;
+mod hostile;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;

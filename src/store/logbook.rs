@@ -5,7 +5,7 @@
 //! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same.
 
 use super::checkpoint::Checkpoint;
-use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
+use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError, soundness};
 use crate::archipelago::{Archipelago, Island, Outbox, Report, Step};
 use crate::evolution::{Gene, Individual};
 use serde::{Deserialize, Serialize};
@@ -146,6 +146,7 @@ impl<G: Gene> Logbook<G> {
             return Err(StoreError::Foreign { path: path.to_owned() });
         }
         let damaged = |reason: String| StoreError::damaged(path, reason);
+        soundness::check(&island, archipelago).map_err(|reason| damaged(reason.to_owned()))?;
         let generation = island.generation;
         let lacks = |log: &str| {
             Err(damaged(format!(
