@@ -51,7 +51,7 @@ fn any_checkpoint_is_refused_or_read_back_to_the_same_bytes() {
 
 #[test]
 fn any_log_is_read_the_same_in_every_way() {
-    attack(bodies::record_logs, &seeds::logs(), 4_000);
+    attack(bodies::record_logs, &seeds::logs(), 2_000);
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn any_configuration_is_refused_in_a_sentence_or_can_be_run_and_written() {
 
 #[test]
 fn any_run_directory_is_refused_or_leads_to_an_island_that_can_evolve() {
-    attack(bodies::logbook, &seeds::run_dirs(), 4_000);
+    attack(bodies::logbook, &seeds::run_dirs(), 2_000);
 }
 
 #[test]
