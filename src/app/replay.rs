@@ -14,9 +14,9 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
     use crate::evolution::Problem;
     use crate::view::{Clip, Draft, Pace, Recorder, RunCard};
 
+    let problem = args.trial.problem()?;
     let genomes: Vec<_> =
         args.genomes.iter().map(|path| genomes::read(path)).collect::<Result<_, _>>()?;
-    let problem = args.trial.problem();
     let trial = args.trial.task.trial();
     let names: Vec<String> =
         args.genomes.iter().map(|path| format!("- {}\n", path.display())).collect();

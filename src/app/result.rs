@@ -12,6 +12,9 @@ use crate::store::{Champion, Entry, RecordLog, RunDir, StoreError, checkpoint, f
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
+/// A summary is some hundred bytes long.
+const SUMMARY_BYTES_MAX: usize = 1 << 20;
+
 /// The result of a run, as `summary.json` and `--json` say it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
@@ -62,7 +65,7 @@ pub struct Summary {
 /// The result of a run that has finished: what it said then, as long as its final populations still say the same.
 /// None if it has not finished, or something of it has to be evolved again.
 pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
-    let summary = file::read(&dir.summary()).ok()?;
+    let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
     let islands = final_islands(dir, config).ok()?;
     let is_sound = summary.generations == config.generations

@@ -62,8 +62,11 @@ impl<G: Gene> Island<G> {
             possible(individual, archipelago, self.generation)?;
         }
         require(population.iter().all(|i| i.fitness <= champion.fitness), Misfit::Champion)?;
+        let born = (u64::from(self.generation) + 1).saturating_mul(population.len() as u64);
+        let tried = effort.evaluations.checked_add(effort.reused);
         let ended = effort.outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
-        require(ended == Some(effort.evaluations), Misfit::Effort)
+        require(ended == Some(effort.evaluations), Misfit::Effort)?;
+        require(tried.is_some_and(|tried| tried <= born), Misfit::Effort)
     }
 }
 

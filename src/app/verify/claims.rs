@@ -30,7 +30,7 @@ impl Summary {
     /// Reads it.
     pub fn read(dir: &RunDir) -> Self {
         let path = dir.summary();
-        let bytes = match file::read(&path) {
+        let bytes = match file::read(&path, SMALL_FILE_BYTES_MAX) {
             Ok(bytes) => bytes,
             Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
                 return Self::Missing;
@@ -38,9 +38,6 @@ impl Summary {
             Err(error) => return Self::Damaged(error.to_string()),
         };
         let damaged = |reason| Self::Damaged(format!("{} is damaged: {reason}", path.display()));
-        if bytes.len() > SMALL_FILE_BYTES_MAX {
-            return damaged("it is too large".to_owned());
-        }
         serde_json::from_slice(&bytes).map_or_else(|error| damaged(error.to_string()), Self::Whole)
     }
 
@@ -185,7 +182,7 @@ fn check_metrics(dir: &RunDir, terms: &Terms, records: &Records, sound: bool) ->
 
 /// A file that is written from something must be what would be written again.
 fn compare(check: &mut Check, path: &Path, right: &[u8], source: &str) {
-    let found = match file::read(path) {
+    let found = match file::read(path, right.len()) {
         Ok(found) => found,
         Err(error) => return check.damaged(error),
     };

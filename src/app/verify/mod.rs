@@ -77,7 +77,7 @@ fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
         return Err(none());
     }
     at_rest(dir)?;
-    match file::read_text(&dir.config()) {
+    match file::read_text(&dir.config(), SMALL_FILE_BYTES_MAX) {
         Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Err(none()),
         Err(error) => Ok(Err(error.to_string())),
         Ok(text) => Ok(launched(&text)
@@ -99,9 +99,6 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 
 /// The configuration of a run that was launched.
 fn launched(text: &str) -> Result<Config, String> {
-    if text.len() > SMALL_FILE_BYTES_MAX {
-        return Err("it is too large".to_owned());
-    }
     let config = Config::parse(text)?;
     config.check().map_err(|failure| failure.message)?;
     if config.seed.is_none() || config.launch.is_none() {

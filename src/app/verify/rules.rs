@@ -50,18 +50,14 @@ impl<'a> Terms<'a> {
     /// What must hold of a checkpoint, but for its place and its checksum.
     pub fn state(&self, checkpoint: &Checkpoint<Gene>) -> Result<(), String> {
         let Checkpoint { settings, island } = checkpoint;
-        let Config { generations, population, .. } = *self.config;
+        let generations = self.config.generations;
         if *settings != self.settings {
             return Err("it was saved under other settings than those in run.toml".to_owned());
         }
         if island.generation > generations {
             return Err(format!("the run ends with generation {generations}"));
         }
-        if island.population.len() != population {
-            let found = island.population.len();
-            return Err(format!("it has a population of {found} instead of {population}"));
-        }
-        Ok(())
+        island.fits(&self.archipelago, island.index).map_err(|misfit| misfit.to_string())
     }
 
     /// What must hold of an island's reports.
