@@ -2,12 +2,12 @@
 
 use super::pieces::{SETTINGS, archipelago, checkpoint_file, folder};
 use super::seeds;
-use crate::support::{TINY, World};
+use crate::support::{TINY, World, until};
 use islands::app::config::Config;
 use islands::archipelago::{Archipelago, Island};
 use islands::creature::Gene;
 use islands::evolution::Id;
-use islands::store::{Checkpoint, Logbook, Restored, RunDir, StoreError, checkpoint};
+use islands::store::{Checkpoint, Claim, Logbook, Restored, RunDir, StoreError, checkpoint};
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
@@ -58,13 +58,24 @@ impl Shelf {
         };
         let bytes = files(from).map(|path| fs::read(path).unwrap());
         self.files = files(&self.dir()).zip(bytes).collect();
-        drop(self.dir().reopen(2).or_else(|_| self.dir().create(2)).unwrap());
+        drop(self.reopen().or_else(|_| self.dir().create(2)).unwrap());
         self.put_back();
         self
     }
 
     fn dir(&self) -> RunDir {
         RunDir::at(self.home.path().join("run"))
+    }
+
+    /// Claims the run. A process that another test starts shares all our files until it is itself, a lock that
+    /// we have given back among them.
+    fn reopen(&self) -> Result<Claim, StoreError> {
+        let mut claim = None;
+        until("nobody else has the run", || {
+            let claimed = claim.insert(self.dir().reopen(2));
+            !matches!(claimed, Err(StoreError::UnderWay { .. }))
+        });
+        claim.unwrap()
     }
 
     fn put_back(&self) {
@@ -178,7 +189,7 @@ fn links_in_a_run_directory_are_refused_and_what_they_lead_to_stays_as_it_is() {
         let place = shelf.dir().path().join(name);
         let _ = fs::remove_dir_all(&place);
         symlink(outside.path(), &place).unwrap();
-        let error = shelf.dir().reopen(2).map(drop).unwrap_err().to_string();
+        let error = shelf.reopen().map(drop).unwrap_err().to_string();
         assert!(error.contains("it is a link"), "{error}");
         assert_holds_only(outside.path(), &precious);
     }
@@ -201,7 +212,7 @@ fn a_checkpoint_that_is_a_link_is_replaced_and_not_written_through() {
     let path = &shelf.last().0;
     fs::remove_file(path).unwrap();
     symlink(&precious, path).unwrap();
-    let claim = shelf.dir().reopen(2).unwrap();
+    let claim = shelf.reopen().unwrap();
     shelf.falls_back("a link to something else");
     let mut logbook = shelf.open().unwrap().logbook;
     let step = &seeds::steps()[3];
