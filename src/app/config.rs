@@ -5,7 +5,7 @@ use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_M
 use crate::creature::Profile;
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
-use crate::store::file;
+use crate::store::{RunDir, file};
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -145,6 +145,22 @@ impl Config {
     /// What is wrong with it, if it is no TOML or says something that a configuration does not know.
     pub fn parse(text: &str) -> Result<Self, String> {
         toml::from_str(text).map_err(|error| one_line(&error, text))
+    }
+
+    /// Reads the configuration of a run that was launched.
+    ///
+    /// # Errors
+    /// If it cannot be read, is not sound, or was not written by a launch.
+    pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
+        let config = Self::read(&dir.config())?;
+        config.check()?;
+        match config.launch {
+            Some(_) => Ok(config),
+            None => Err(Failure::usage(format!(
+                "{} was not written by a run: start one with islands --config {0}",
+                dir.config().display()
+            ))),
+        }
     }
 
     /// The file that says the same.

@@ -82,7 +82,7 @@ mod watched {
             let path = dir.path().display();
             return Err(Failure::usage(format!("there is no run in {path}: it has no run.toml")));
         }
-        let config = Config::read(&dir.config())?;
+        let config = Config::of_run(dir)?;
         config.check()?;
         Ok(config)
     }

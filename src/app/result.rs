@@ -144,7 +144,13 @@ pub fn best(islands: &[Island<Gene>]) -> &Island<Gene> {
 
 fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
     (0..config.islands)
-        .map(|island| Ok(checkpoint::load(&dir.checkpoint(island, config.generations))?.island))
+        .map(|index| {
+            let path = dir.checkpoint(index, config.generations);
+            let island: Island<Gene> = checkpoint::load(&path)?.island;
+            let misfit = island.fits(&config.archipelago(), index);
+            misfit.map_err(|misfit| StoreError::damaged(&path, misfit.to_string()))?;
+            Ok(island)
+        })
         .collect()
 }
 

@@ -86,7 +86,8 @@ impl StoreError {
         move |source| StoreError::Io { action, path: path.to_owned(), source }
     }
 
-    fn damaged(path: &Path, reason: impl Into<String>) -> Self {
+    /// A file that is not what it should be.
+    pub fn damaged(path: &Path, reason: impl Into<String>) -> Self {
         StoreError::Damaged { path: path.to_owned(), reason: reason.into() }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::pieces::{SETTINGS, archipelago, checkpoint_file, folder};
 use super::seeds;
-use crate::support::{TINY, World};
+use crate::support::{TINY, World, until};
 use islands::app::config::Config;
 use islands::archipelago::{Archipelago, Island};
 use islands::creature::Gene;
@@ -58,13 +58,24 @@ impl Shelf {
         };
         let bytes = files(from).map(|path| fs::read(path).unwrap());
         self.files = files(&self.dir()).zip(bytes).collect();
-        drop(reopen(&self.dir(), 2).or_else(|_| self.dir().create(2)).unwrap());
+        drop(self.reopen().or_else(|_| self.dir().create(2)).unwrap());
         self.put_back();
         self
     }
 
     fn dir(&self) -> RunDir {
         RunDir::at(self.home.path().join("run"))
+    }
+
+    /// Claims the run. A process that another test starts shares all our files until it is itself, a lock that
+    /// we have given back among them.
+    fn reopen(&self) -> Result<Claim, StoreError> {
+        let mut claim = None;
+        until("nobody else has the run", || {
+            let claimed = claim.insert(reopen(&self.dir(), 2));
+            !matches!(claimed, Err(StoreError::UnderWay { .. }))
+        });
+        claim.unwrap()
     }
 
     fn put_back(&self) {
@@ -125,18 +136,18 @@ fn a_state_that_cannot_be_of_the_run_is_not_believed_whatever_its_checksum_says(
     let unborn = Id { island: 0, generation: 4, index: 0 };
     type Forge<'a> = &'a dyn Fn(&mut Island<Gene>);
     let forgeries: [(Forge<'_>, &str); 10] = [
-        (&|it| it.population.clear(), "its population has another size than the run's"),
-        (&|it| it.population.truncate(2), "its population has another size than the run's"),
-        (&|it| it.population[0].genome.clear(), "it has a genome of an impossible length"),
+        (&|it| it.population.clear(), "it has not as many individuals as a population has"),
+        (&|it| it.population.truncate(2), "it has not as many individuals as a population has"),
+        (&|it| it.population[0].genome.clear(), "it has a genome that is empty or too long"),
         (
             &|it| it.champion.genome = vec![Gene([0.5; 17]); 4],
-            "it has a genome of an impossible length",
+            "it has a genome that is empty or too long",
         ),
         (&|it| it.population[2].genome[0].0[16] = f64::NAN, "it has a gene that is not valid"),
         (&|it| it.champion.genome[0].0[0] = 1.0, "it has a gene that is not valid"),
         (&|it| it.population[0].parents[1] = Some(nowhere), "it has an individual from nowhere"),
         (&|it| it.champion.id = unborn, "it has an individual from nowhere"),
-        (&|it| it.population[1].fitness = 1e9.into(), "its champion is not its best"),
+        (&|it| it.population[1].fitness = 1e9.into(), "its champion is not the best"),
         (&|it| it.effort.reused = u64::MAX, "its evaluations do not add up"),
     ];
     for (forge, reason) in forgeries {
@@ -178,7 +189,7 @@ fn links_in_a_run_directory_are_refused_and_what_they_lead_to_stays_as_it_is() {
         let place = shelf.dir().path().join(name);
         let _ = fs::remove_dir_all(&place);
         symlink(outside.path(), &place).unwrap();
-        let error = reopen(&shelf.dir(), 2).map(drop).unwrap_err().to_string();
+        let error = shelf.reopen().map(drop).unwrap_err().to_string();
         assert!(error.contains("it is a link"), "{error}");
         assert_holds_only(outside.path(), &precious);
     }
@@ -201,7 +212,7 @@ fn a_checkpoint_that_is_a_link_is_replaced_and_not_written_through() {
     let path = &shelf.last().0;
     fs::remove_file(path).unwrap();
     symlink(&precious, path).unwrap();
-    let claim = reopen(&shelf.dir(), 2).unwrap();
+    let claim = shelf.reopen().unwrap();
     shelf.falls_back("a link to something else");
     let mut logbook = shelf.open().unwrap().logbook;
     let step = &seeds::steps()[3];
