@@ -3,7 +3,7 @@
 //! Every process writes down, below the run's folder, that it lives, and a tag for each service and port before
 //! it makes it; iceoryx2 cleans up after a dead one by that. It does not cope with what was being written at
 //! the instant of death: an object without a size makes it wait for ever, a tag that is not finished makes it
-//! fail, and it overlooks what wakes a reader up. So these are seen to here.
+//! fail, and it overlooks events and connections that were made but not yet in use. So these are seen to here.
 //!
 //! What a process leaves that dies in the first moments of its life, before it holds anything, is some small
 //! files below the run's folder. They look like those of one that is being born, and stay until the run ends.
@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
@@ -35,8 +35,7 @@ const PORT_TAG: &str = ".port_tag";
 const SERVICE_TAG: &str = ".service_tag";
 /// That a process lives is said by three files.
 const LIVES: [&str; 3] = [".node_monitor", ".node_monitor_owner_lock", ".node_monitor_context"];
-/// A listener has an object and a socket, both called after its port.
-const EVENT_OBJECT: &str = ".event_mgmt";
+/// A listener's socket, which is called after its port.
 const EVENT_SOCKET: &str = ".event";
 
 /// The mode of a tag that is not finished. It is read-only then.
@@ -101,7 +100,7 @@ impl<'a> Grave<'a> {
         }
         let Ok(ports) = self.remove_unfinished_tags() else { return false };
         let is_clean = dead.blocking_remove_stale_resources(WAIT_MAX).is_ok();
-        is_clean && self.remove_events(&ports, memory).is_ok()
+        is_clean && self.remove_called_after(&ports, memory).is_ok()
     }
 
     // It was killed in the last moments of an orderly end: everything was given back, and its details removed.
@@ -118,8 +117,8 @@ impl<'a> Grave<'a> {
     }
 
     // Nothing was made yet of what they announce. Returns the ports that others announce.
-    fn remove_unfinished_tags(&self) -> io::Result<Vec<String>> {
-        let mut ports = Vec::new();
+    fn remove_unfinished_tags(&self) -> io::Result<BTreeSet<String>> {
+        let mut ports = BTreeSet::new();
         for entry in fs::read_dir(&self.folder)? {
             let entry = entry?;
             let Ok(name) = entry.file_name().into_string() else { continue };
@@ -133,18 +132,22 @@ impl<'a> Grave<'a> {
         Ok(ports)
     }
 
-    // One that was killed before its listener was in use.
-    fn remove_events(&self, ports: &[String], memory: &SharedMemory) -> io::Result<()> {
-        let is_event = |path: &Path, port: &String| {
-            let name = path.file_name().and_then(|name| name.to_str());
-            name.is_some_and(|name| name.ends_with(&format!("_{port}{EVENT_OBJECT}")))
-        };
+    // Of ports that were not in use yet when it was killed. Whoever uses one with it keeps it until he has
+    // noticed: only the name goes.
+    fn remove_called_after(
+        &self,
+        ports: &BTreeSet<String>,
+        memory: &SharedMemory,
+    ) -> io::Result<()> {
         for object in memory.objects(self.domain.run_id()) {
-            if ports.iter().any(|port| is_event(&object.path, port)) {
+            let name = object.path.file_stem().and_then(|name| name.to_str()).unwrap_or_default();
+            if name.split('_').any(|part| ports.contains(part)) {
                 unless_gone(fs::remove_file(object.path))?;
             }
         }
-        let socket = |port| self.domain.root().join(self.domain.prefix() + port + EVENT_SOCKET);
-        ports.iter().try_for_each(|port| unless_gone(fs::remove_file(socket(port))))
+        let name = |port| format!("{}{port}{EVENT_SOCKET}", self.domain.prefix());
+        ports
+            .iter()
+            .try_for_each(|port| unless_gone(fs::remove_file(self.domain.root().join(name(port)))))
     }
 }

@@ -101,7 +101,9 @@ fn what_was_only_begun_at_death_is_cleaned_up_too() {
         fs::set_permissions(&unfinished, PermissionsExt::from_mode(0o600)).unwrap();
         let port = tag.file_stem().unwrap().to_str().unwrap();
         let port = port.strip_prefix(&domain.prefix()).unwrap();
-        fs::write(format!("/dev/shm/{}x_{port}.event_mgmt", domain.prefix()), [1]).unwrap();
+        for name in [format!("x_{port}.event_mgmt"), format!("x_7_{port}.connection")] {
+            fs::write(Path::new("/dev/shm").join(domain.prefix() + &name), [1]).unwrap();
+        }
     }
     assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 2);
     assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 0);
