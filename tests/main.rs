@@ -1,6 +1,7 @@
 //! The promises of the crate, a module a subject.
 
 mod chaos;
+mod cleaning;
 mod cli;
 mod course;
 mod determinism;

@@ -70,6 +70,8 @@ pub enum Command {
     Monitor(MonitorArgs),
     /// Check that a run's folder holds what it claims, by simulating its champions again
     Verify(VerifyArgs),
+    /// Remove what crashed runs left in shared memory; runs under way are not touched
+    Clean(CleanArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
     Island(IslandArgs),
@@ -108,8 +110,8 @@ pub struct OutputArgs {
     /// Record and serve nothing; every other file is written all the same
     #[arg(long, help_heading = "Running")]
     pub no_monitor: bool,
-    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
-    /// watch, without a password
+    /// Serve the live view on this address of the machine. Who can reach it can watch, without a password,
+    /// and show something else to others who watch: on any but 127.0.0.1 that may be many
     #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
     pub view_address: IpAddr,
     /// Show no progress
@@ -227,6 +229,14 @@ pub struct VerifyArgs {
     /// Print the result as one JSON object, the last line of standard output
     #[arg(long)]
     pub json: bool,
+}
+
+/// Cleaning.
+#[derive(Debug, Args)]
+pub struct CleanArgs {
+    /// Only list it
+    #[arg(long)]
+    pub dry_run: bool,
 }
 
 /// One island.

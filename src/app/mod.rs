@@ -5,13 +5,14 @@
 //! that watches (`monitor`), and starts them again when they die, unless that has no hope (`mortality`). They are
 //! its `crew`, tied to it by `kinship`: they die with it, and stop when it closes their standard input. What
 //! happens is told and logged by a `chronicle`, how far it got shown by `progress`; at the end what the islands
-//! wrote is gathered into a `result`. `verify` looks whether a run's folder holds what it claims, `evaluate`,
+//! wrote is gathered into a `result`. `clean` removes what a killed launcher left, `verify` looks whether a run's folder holds what it claims, `evaluate`,
 //! `inspect` and `replay` look at single genomes.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
 mod chronicle;
+mod clean;
 mod cli;
 pub mod config;
 mod console;
@@ -50,6 +51,7 @@ pub fn main() -> ExitCode {
         Some(Command::Replay(args)) => replay::run(&args),
         Some(Command::Monitor(args)) => monitor::run(&args),
         Some(Command::Verify(args)) => verify::run(&args),
+        Some(Command::Clean(args)) => clean::run(&args),
         Some(Command::Island(args)) => island::run(&args),
     };
     match done {
