@@ -8,6 +8,7 @@ use crate::support::{Running, World, is_alive, try_signal, until};
 use islands::rng::Stream;
 use islands::store::RunDir;
 use rand::{RngExt, SeedableRng};
+use std::cmp::Reverse;
 use std::fmt;
 use std::fs;
 use std::path::PathBuf;
@@ -103,6 +104,8 @@ impl Chaos {
         let ending = self.run.take().unwrap().wait();
         assert_eq!(ending.code, Some(0), "{ending:?}\n{}", self.world.read("run/run.log"));
         self.world.assert_left_nothing();
+        let verified = self.world.islands("verify run");
+        assert_eq!(verified.code, Some(0), "{verified:?}");
         ending.json()["digest"].as_str().unwrap().to_owned()
     }
 
@@ -168,24 +171,28 @@ impl Chaos {
         try_signal(pid, "CONT");
     }
 
-    /// Cuts off a part of an island's newest checkpoint, and kills the island over it.
+    /// Cuts off a part of an island's newest checkpoint, or of both that it has, and kills the island over it.
     fn damage_checkpoint(&mut self) {
         let island = self.any_island();
         let Some(pid) = self.find(&format!("--index={island}")) else { return };
         // A stopped island does not write another one meanwhile.
         try_signal(pid, "STOP");
-        if let Some(newest) = newest(&self.dir(), island) {
-            let bytes = fs::read(&newest).unwrap_or_default();
+        let harmed = self.rng.random_range(1..=2);
+        for checkpoint in checkpoints(&self.dir(), island).into_iter().take(harmed) {
+            let bytes = fs::read(&checkpoint).unwrap();
             let cut = self.rng.random_range(0..bytes.len().max(1));
-            fs::write(&newest, &bytes[..cut]).unwrap();
+            fs::write(&checkpoint, &bytes[..cut]).unwrap();
             self.tally.damages += 1;
         }
         self.tally.islands += u32::from(try_signal(pid, "KILL"));
     }
 }
 
-fn newest(dir: &RunDir, island: u32) -> Option<PathBuf> {
-    let files = fs::read_dir(dir.checkpoints(island)).ok()?;
+/// An island's checkpoints, the newest first.
+fn checkpoints(dir: &RunDir, island: u32) -> Vec<PathBuf> {
     let generation = |path: &PathBuf| path.file_stem()?.to_str()?.parse::<u32>().ok();
-    files.filter_map(|file| Some(file.ok()?.path())).max_by_key(generation)
+    let files = fs::read_dir(dir.checkpoints(island)).into_iter().flatten();
+    let mut checkpoints: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
+    checkpoints.sort_by_key(|path| Reverse(generation(path)));
+    checkpoints
 }
