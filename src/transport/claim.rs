@@ -85,14 +85,15 @@ impl Claim {
     /// Removes all that the run has, and the claim last: what cannot be removed stays claimed, for the next
     /// one who cleans up.
     pub fn remove(&self) -> Result<(), TransportError> {
-        self.remove_objects()?;
-        if let Some(folder) = self.folder() {
-            unless_gone(fs::remove_dir_all(folder))
-                .map_err(|source| TransportError::folder(folder, source))?;
+        // Islands die a moment after their launcher, and may make something until then: so twice.
+        for _ in 0..2 {
+            let removed = self.memory.remove_objects(self.run_id);
+            removed.map_err(|(path, source)| TransportError::Folder { path, source })?;
+            if let Some(folder) = self.folder() {
+                unless_gone(fs::remove_dir_all(folder))
+                    .map_err(|source| TransportError::folder(folder, source))?;
+            }
         }
-        // Islands die a moment after their launcher, and may make something until then; without the folder
-        // no more of them get that far.
-        self.remove_objects()?;
         let path = self.memory.claim(self.run_id);
         unless_gone(fs::remove_file(&path)).map_err(|source| TransportError::folder(&path, source))
     }
@@ -101,11 +102,6 @@ impl Claim {
     pub fn withdraw(&self) {
         // A claim that stays is one of a dead launcher, as soon as this process ends.
         let _ = fs::remove_file(self.memory.claim(self.run_id));
-    }
-
-    fn remove_objects(&self) -> Result<(), TransportError> {
-        let removed = self.memory.remove_objects(self.run_id);
-        removed.map_err(|(path, source)| TransportError::Folder { path, source })
     }
 }
 

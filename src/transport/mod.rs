@@ -9,12 +9,12 @@
 //! | `outboxes/<i>` | island i | its out-neighbours | not delivered to whom it does not fit |
 //! | `requests/<i>` | island i's out-neighbours | island i | the oldest is forgotten |
 //! | `wakeup/<i>` | island i's neighbours | island i | one is as good as many |
-//! | `reports` | all islands | launcher | the oldest is forgotten |
+//! | `reports` | all islands | launcher, and one who watches by hand | the oldest is forgotten |
 //!
 //! A [`Domain`] keeps a run apart from all others. The launcher's [`Harbour`] creates the services, holds
 //! them open while islands come and go, cleans up after the dead and leaves nothing behind; what a killed
-//! launcher leaves, the next one removes. An island opens an
-//! [`Exchange`]; who wants to watch opens a [`Lookout`].
+//! launcher leaves ([`Domain::abandoned`]), the next one removes. An island opens an [`Exchange`]; who wants
+//! to watch opens a [`Lookout`], and there is room for one besides the launcher.
 //!
 //! # How it is meant to be used
 //!
@@ -22,7 +22,7 @@
 //! that its sender keeps it, and that the receiver asks for what it misses:
 //!
 //! - An island appends each outbox to its journal before it calls [`Exchange::publish`]. When it starts it
-//!   publishes the last epochs of its journal again.
+//!   publishes the last [`Exchange::history`] epochs of its journal again.
 //! - To take in an epoch it calls [`Exchange::receive`] and hands all outboxes to an
 //!   [`Inbox`](crate::archipelago::Inbox), which keeps what is early and drops what came twice, until
 //!   [`take`](crate::archipelago::Inbox::take) yields the epoch. Meanwhile it calls [`Exchange::wait`], tick by
@@ -147,7 +147,9 @@ pub enum TransportError {
         cause: String,
     },
     /// What dead islands held is still held.
-    #[error("could not clean up after {dead} dead process(es): try again, or restart the run")]
+    #[error(
+        "could not clean up after {dead} dead process(es), whose places may stay taken: restart the run"
+    )]
     Cleanup {
         /// How many.
         dead: u64,

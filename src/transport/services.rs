@@ -166,7 +166,8 @@ impl Plan {
         2 * self.history
     }
 
-    // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned up.
+    // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned
+    // up.
     fn nodes(&self) -> usize {
         self.archipelago.islands as usize + 6
     }

@@ -197,15 +197,17 @@ fn something_else_that_is_called_like_a_claim_is_none() {
 }
 
 #[test]
-fn a_claim_without_a_word_says_the_default_folder() {
+fn a_claim_that_says_nothing_of_use_stands_for_the_default_folder() {
     let domain = domain(19);
     let place = Place::new();
-    let claim = Claim::make(&place.memory, domain.run_id(), domain.root()).unwrap();
-    fs::create_dir(domain.root()).unwrap();
-    fs::write(place.memory.claim(domain.run_id()), []).unwrap();
-    drop(claim);
-    assert_eq!(place.only().remove().unwrap(), Removal::Done);
-    assert!(!domain.root().exists());
+    for content in [String::new(), folder_name(domain.run_id())] {
+        let claim = Claim::make(&place.memory, domain.run_id(), domain.root()).unwrap();
+        fs::create_dir(domain.root()).unwrap();
+        fs::write(place.memory.claim(domain.run_id()), content).unwrap();
+        drop(claim);
+        assert_eq!(place.only().remove().unwrap(), Removal::Done);
+        assert!(!domain.root().exists());
+    }
 }
 
 #[test]
@@ -253,19 +255,15 @@ fn only_what_stays_empty_is_stillborn() {
     }
     fs::write(&full, [1]).unwrap();
     // It is followed by another of the same name, again and again: each is young.
-    let is_over = std::sync::atomic::AtomicBool::new(false);
     std::thread::scope(|scope| {
-        use std::sync::atomic::Ordering::SeqCst;
-        scope.spawn(|| {
-            let next = place.shm.path().join("next");
-            while !is_over.load(SeqCst) {
-                fs::write(&next, []).unwrap();
-                fs::rename(&next, &young).unwrap();
-                std::thread::sleep(Duration::from_millis(1));
-            }
-        });
-        assert_eq!(place.memory.remove_stillborn(RUN), 1);
-        is_over.store(true, SeqCst);
+        let removal = scope.spawn(|| place.memory.remove_stillborn(RUN));
+        let next = place.shm.path().join("next");
+        while !removal.is_finished() {
+            fs::write(&next, []).unwrap();
+            fs::rename(&next, &young).unwrap();
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(removal.join().unwrap(), 1);
     });
     assert_eq!(place.left(), [full, young, stranger]);
     assert!(!empty.exists());

@@ -9,6 +9,8 @@ const CHILD_ISLAND: &str = "ISLANDS_TEST_CHILD_ISLAND";
 #[test]
 fn child() {
     let [Ok(run_id), Ok(island)] = [CHILD, CHILD_ISLAND].map(std::env::var) else { return };
+    // A test that fails leaves nobody behind.
+    rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL)).unwrap();
     let island = island.parse().unwrap();
     let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), island).unwrap();
     for epoch in 0.. {
