@@ -8,7 +8,7 @@
 //! files. What it says is not believed but checked.
 
 use super::TransportError;
-use super::domain::{Domain, folder_name};
+use super::names;
 use super::shared_memory::{PRIVATE, SharedMemory, unless_gone};
 use rustix::fs::OFlags;
 use std::ffi::OsString;
@@ -72,7 +72,7 @@ impl Claim {
             return Found::Gone;
         }
         let folder = named_folder(&file, run_id);
-        let folder = folder.unwrap_or_else(|| Domain::new(run_id).root().to_owned());
+        let folder = folder.unwrap_or_else(|| names::root(run_id));
         Found::Abandoned(Self { run_id, memory: memory.clone(), folder, file })
     }
 
@@ -134,7 +134,7 @@ fn named_folder(file: &File, run_id: u64) -> Option<PathBuf> {
     file.take(PATH_MAX).read_to_end(&mut text).ok()?;
     let path = PathBuf::from(OsString::from_vec(text));
     let is_it =
-        path.is_absolute() && path.file_name().is_some_and(|name| *name == *folder_name(run_id));
+        path.is_absolute() && path.file_name().is_some_and(|name| *name == *names::folder(run_id));
     // Put together again, since a slash at its end would follow a link.
     is_it.then(|| path.components().collect())
 }

@@ -2,6 +2,7 @@
 
 use super::TransportError;
 use super::claim::Claim;
+use super::names;
 use super::remains::{self, Remains};
 use super::shared_memory::{SHARED_MEMORY, SharedMemory};
 use iceoryx2::prelude::{Config, FileName, LogLevel, Path, SemanticString, set_log_level};
@@ -10,16 +11,6 @@ use std::fs::{self, DirBuilder, Permissions};
 use std::os::unix::fs::{DirBuilderExt, PermissionsExt};
 use std::path::{Path as FsPath, PathBuf};
 use std::str::FromStr;
-
-/// Sockets lie below the root, and the whole path of one must fit in 108 bytes; iceoryx2 itself needs 44
-/// of them for its names. Longer ones fail or panic inside of it.
-const ROOT_AND_PREFIX_MAX: usize = 64;
-
-/// What the names of folders, objects and claims begin with.
-const NAME: &str = "isl";
-/// What follows the prefix in the name of a claim. No object of iceoryx2's is called so: theirs have an
-/// ending.
-const CLAIM: &str = "launcher";
 
 /// The place of one run: a prefix for all its objects in shared memory, and a folder for its files.
 ///
@@ -34,11 +25,7 @@ pub struct Domain {
 impl Domain {
     /// The domain of a run. The id must be one that no other run on this machine has.
     pub fn new(run_id: u64) -> Self {
-        let folder = folder_name(run_id);
-        let root = std::env::temp_dir().join(&folder);
-        // A long TMPDIR is common (macOS, build systems), and /tmp always works.
-        let root = if fits(run_id, &root) { root } else { FsPath::new("/tmp").join(folder) };
-        Self { run_id, root }
+        Self { run_id, root: names::root(run_id) }
     }
 
     /// The run's id.
@@ -53,7 +40,7 @@ impl Domain {
 
     /// What the names of all objects of the run in shared memory begin with.
     pub fn prefix(&self) -> String {
-        prefix(self.run_id)
+        names::prefix(self.run_id)
     }
 
     /// What runs of this user have left behind on this machine whose launcher was killed, whatever their
@@ -131,36 +118,6 @@ impl FromStr for Domain {
     }
 }
 
-/// What the names of all of a run's objects begin with.
-pub fn prefix(run_id: u64) -> String {
-    format!("{NAME}{run_id:016x}_")
-}
-
-/// What a run's folder is called.
-pub fn folder_name(run_id: u64) -> String {
-    format!("{NAME}{run_id:016x}")
-}
-
-/// What a run's claim is called.
-pub fn claim_name(run_id: u64) -> String {
-    prefix(run_id) + CLAIM
-}
-
-/// The run whose claim is called so, if it is the name of one.
-pub fn run_id_of_claim(name: &str) -> Option<u64> {
-    let id = name.strip_prefix(NAME)?.split_once('_')?.0;
-    let run_id = u64::from_str_radix(id, 16).ok()?;
-    // Other spellings of the number are not ours.
-    (name == claim_name(run_id)).then_some(run_id)
-}
-
-fn fits(run_id: u64, root: &FsPath) -> bool {
-    // iceoryx2 allows only these in a path.
-    let plain = |c: char| c.is_ascii_alphanumeric() || "/._-".contains(c);
-    let text = root.to_str().filter(|text| text.starts_with('/') && text.chars().all(plain));
-    text.is_some_and(|text| text.len() + prefix(run_id).len() <= ROOT_AND_PREFIX_MAX)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -176,34 +133,9 @@ mod tests {
     }
 
     #[test]
-    fn a_root_that_is_too_long_for_a_socket_is_not_used() {
-        assert!(fits(1, FsPath::new("/tmp/isl0000000000000001")));
-        let long = format!("/{}", "a".repeat(ROOT_AND_PREFIX_MAX));
-        assert!(!fits(1, FsPath::new(&long)));
-        assert!(!fits(1, FsPath::new("/tmp/with a space")));
-    }
-
-    #[test]
     fn too_little_shared_memory_is_said_in_numbers() {
         let error = Domain::new(1).check_space(u64::MAX).unwrap_err().to_string();
         assert!(error.contains("17592186044416 MiB") && error.contains("/dev/shm"), "{error}");
         Domain::new(1).check_space(0).unwrap();
-    }
-
-    #[test]
-    fn a_claim_is_known_by_its_name_and_nothing_else_is() {
-        assert_eq!(run_id_of_claim(&claim_name(0x2a)), Some(0x2a));
-        assert_eq!(run_id_of_claim(&claim_name(u64::MAX)), Some(u64::MAX));
-        for name in [
-            "isl2a_launcher",
-            "isl+00000000000002a_launcher",
-            "isl000000000000002A_launcher",
-            "isl000000000000002a_launcher2",
-            "isl000000000000002a_x.connection",
-            "isl000000000000002a",
-            "isé_launcher",
-        ] {
-            assert_eq!(run_id_of_claim(name), None, "{name}");
-        }
     }
 }

@@ -45,6 +45,7 @@ mod exchange;
 mod harbour;
 mod limits;
 mod lookout;
+mod names;
 mod ports;
 mod remains;
 mod services;

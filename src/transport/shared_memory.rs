@@ -1,6 +1,6 @@
 //! The files that runs have in shared memory: objects of iceoryx2's, and one claim a run.
 
-use super::domain::{claim_name, prefix, run_id_of_claim};
+use super::names;
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata, Permissions};
 use std::io;
@@ -53,19 +53,20 @@ impl SharedMemory {
 
     /// The place of a run's claim.
     pub fn claim(&self, run_id: u64) -> PathBuf {
-        self.folder.join(claim_name(run_id))
+        self.folder.join(names::claim(run_id))
     }
 
     /// The runs that have a claim, in order.
     pub fn claimed(&self) -> Vec<u64> {
-        let mut runs: Vec<u64> = self.names().iter().filter_map(|n| run_id_of_claim(n)).collect();
+        let mut runs: Vec<u64> =
+            self.names().iter().filter_map(|n| names::run_id_of_claim(n)).collect();
         runs.sort_unstable();
         runs
     }
 
     /// A run's objects. Its claim is none.
     pub fn objects(&self, run_id: u64) -> Vec<Object> {
-        let [prefix, claim] = [prefix(run_id), claim_name(run_id)];
+        let [prefix, claim] = [names::prefix(run_id), names::claim(run_id)];
         let names = self.names().into_iter();
         let names = names.filter(|name| name.starts_with(&prefix) && *name != claim);
         names.filter_map(|name| self.object(self.folder.join(name))).collect()

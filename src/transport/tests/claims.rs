@@ -1,7 +1,7 @@
 //! Claims and what is left without them, in a folder that stands for shared memory.
 
 use super::super::claim::{Claim, Found};
-use super::super::domain::{claim_name, folder_name, prefix};
+use super::super::names;
 use super::super::remains::{self, Remains};
 use super::super::shared_memory::SharedMemory;
 use super::*;
@@ -26,11 +26,11 @@ impl Place {
     }
 
     fn root(&self) -> PathBuf {
-        self.tmp.path().join(folder_name(RUN))
+        self.tmp.path().join(names::folder(RUN))
     }
 
     fn object(&self, name: &str) -> PathBuf {
-        self.shm.path().join(prefix(RUN) + name)
+        self.shm.path().join(names::prefix(RUN) + name)
     }
 
     /// What the run has while its launcher lives.
@@ -140,10 +140,10 @@ fn a_folder_that_was_given_away_is_kept() {
 fn only_the_own_folder_is_removed_whatever_a_claim_says() {
     let place = Place::new();
     let precious = tempfile::tempdir().unwrap();
-    let other = precious.path().join(folder_name(RUN + 1));
-    let below = precious.path().join(folder_name(RUN)).join("below");
+    let other = precious.path().join(names::folder(RUN + 1));
+    let below = precious.path().join(names::folder(RUN)).join("below");
     let [link, file] =
-        ["link", "file"].map(|name| precious.path().join(name).join(folder_name(RUN)));
+        ["link", "file"].map(|name| precious.path().join(name).join(names::folder(RUN)));
     fs::create_dir_all(&other).unwrap();
     fs::create_dir_all(&below).unwrap();
     for path in [&link, &file] {
@@ -158,7 +158,7 @@ fn only_the_own_folder_is_removed_whatever_a_claim_says() {
         Vec::new(),
         b"/".to_vec(),
         b"/\xff\xfe".to_vec(),
-        folder_name(RUN).into_bytes(),
+        names::folder(RUN).into_bytes(),
         text(precious.path()).into_bytes(),
         text(&other).into_bytes(),
         text(&below).into_bytes(),
@@ -200,7 +200,7 @@ fn something_else_that_is_called_like_a_claim_is_none() {
 fn a_claim_that_says_nothing_of_use_stands_for_the_default_folder() {
     let domain = domain(19);
     let place = Place::new();
-    for content in [String::new(), folder_name(domain.run_id())] {
+    for content in [String::new(), names::folder(domain.run_id())] {
         let claim = Claim::make(&place.memory, domain.run_id(), domain.root()).unwrap();
         fs::create_dir(domain.root()).unwrap();
         fs::write(place.memory.claim(domain.run_id()), content).unwrap();
@@ -214,7 +214,7 @@ fn a_claim_that_says_nothing_of_use_stands_for_the_default_folder() {
 fn a_claim_is_for_this_user_only_and_is_no_object() {
     let place = Place::new();
     let claim = Claim::make(&place.memory, RUN, &place.root()).unwrap();
-    let path = place.shm.path().join(claim_name(RUN));
+    let path = place.shm.path().join(names::claim(RUN));
     assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);
     assert_eq!(fs::read(&path).unwrap(), place.root().to_str().unwrap().as_bytes());
     fs::write(&path, []).unwrap();
@@ -248,7 +248,7 @@ fn a_launcher_and_a_cleaner_never_take_a_claim_from_each_other() {
 #[test]
 fn only_what_stays_empty_is_stillborn() {
     let place = Place::new();
-    let stranger = place.shm.path().join(prefix(RUN + 1) + "x.data");
+    let stranger = place.shm.path().join(names::prefix(RUN + 1) + "x.data");
     let [empty, young, full] = ["e.data", "y.data", "f.data"].map(|name| place.object(name));
     for path in [&empty, &young, &stranger] {
         fs::write(path, []).unwrap();
