@@ -4,6 +4,8 @@ mod chaos;
 mod cli;
 mod course;
 mod determinism;
+mod faults;
+mod forger;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;
