@@ -212,7 +212,7 @@ impl<'a> Supervisor<'a> {
         let post = self.crew.post(role);
         let after = match post.generation {
             Some(generation) => format!("after generation {generation}"),
-            None => "in its first generation".to_owned(),
+            None => "before it had evolved anything".to_owned(),
         };
         let complaint = post.take_complaint();
         let words = complaint.map_or_else(String::new, |words| {
