@@ -58,7 +58,7 @@ fn impossible_wishes_for_a_run_are_refused_with_a_sentence_that_says_what_to_do(
         5 migrants are more than there can be: take at most 4, with a population of 4
         elites must be from 0 to 3, not 4
         genes must be from 1 to 12, not 13
-        threads must be at least 1
+        threads must be from 1 to 4096, not 0
         grow-rate must be from 0 to 1, not 1.5
         crossover-rate must be from 0 to 1, not NaN
         migration-interval must be from 1 to 1000000000, not 0
@@ -142,11 +142,11 @@ fn a_genome_that_cannot_be_read_is_refused_by_every_command() {
         expect![[r#"
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-            --threads and --repeat must be at least 1
-            --threads and --repeat must be at least 1
+            --threads and --repeat must be at least 1, and at most 4096 and 1000000
+            --threads and --repeat must be at least 1, and at most 4096 and 1000000
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-            cannot use .: the genome cannot be read: Is a directory (os error 21)"#]],
+            cannot use .: it is no regular file; name a file with a gene a line, such as a run's champion.csv"#]],
     );
 }
 
@@ -171,8 +171,8 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
             cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
-            cannot write the recording good.csv/film.rrd: Failed to create file: Not a directory (os error 20), path: good.csv/film.rrd; choose another file with --out
-            cannot use nowhere/run.toml: No such file or directory (os error 2); name a file such as a run's run.toml"#]],
+            cannot write the recording good.csv/film.rrd: Not a directory (os error 20); choose another file with --out
+            there is no run in nowhere: it has no run.toml"#]],
     );
 }
 

@@ -1,11 +1,14 @@
 //! The promises of the crate, a module a subject.
 
 mod chaos;
+mod cleaning;
 mod cli;
 mod course;
 mod determinism;
 mod faults;
 mod forger;
+mod format;
+mod hostile;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;
@@ -14,3 +17,4 @@ mod run;
 mod support;
 mod survival;
 mod tidy;
+mod verify;

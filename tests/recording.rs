@@ -1,14 +1,17 @@
 //! What a viewer gets to see is what was scored.
 
-use crate::support::{TINY, World, signal, until};
+use crate::support::{Ending, TINY, World, await_generation, signal, until};
 use islands::creature::{Gene, Profile, Shape};
+use islands::evolution::Fitness;
 use islands::formats::{genome_csv, metrics};
 use islands::problems::{Locomotion, Task};
 use islands::simulation::{Pose, Trajectory};
-use islands::store::{RunDir, checkpoint};
+use islands::store::{Champion, Entry, RecordLog, RunDir, checkpoint};
 use re_log_encoding::DecoderApp;
 use rerun::StoreKind;
 use rerun::log::{Chunk, LogMsg};
+use serde::{Serialize, de::DeserializeOwned};
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
@@ -66,6 +69,153 @@ fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
 }
 
 #[test]
+fn a_monitor_that_is_killed_again_and_again_leaves_a_film_without_gaps_or_doubles() {
+    let world = World::new();
+    let settings = "--population 4 --generations 40 --genes 1 --elites 1";
+    let run = world.start(&format!("--n 2 --seed 43 --out run --quiet --json {settings}"));
+    let dir = RunDir::at(world.path("run"));
+    for generation in [2, 5, 8] {
+        await_generation(&dir, 2, generation);
+        signal(run.child("monitor"), "KILL");
+    }
+    let ending = run.wait();
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    assert_eq!(Recording::read(&dir.recording()).generations(2), Vec::from_iter(0..=40));
+    assert!(!dir.partial().exists());
+}
+
+#[test]
+fn a_film_that_is_made_of_a_run_that_is_over_is_the_one_that_was_made_while_it_went_on() {
+    let world = World::new();
+    world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
+    let path = world.path("run/recording.rrd");
+    let (files, live) = (world.files(), Recording::read(&path));
+    std::fs::remove_file(&path).unwrap();
+    let ending = world.islands("monitor run");
+    let said = "view it:  rerun run/recording.rrd\n";
+    assert_eq!((ending.code, ending.stdout.as_str()), (Some(0), said), "{ending:?}");
+    assert_eq!(world.files(), files);
+    let made = Recording::read(&path);
+    assert_eq!(made.generations(2), [0, 1, 2, 3]);
+    for island in 0..2 {
+        for curve in ["fitness/best", "fitness/mean", "diversity"] {
+            let curve = format!("/{curve}/{island}");
+            assert_eq!(made.scalars(&curve), live.scalars(&curve));
+        }
+        for kind in ["boxes", "cylinders"] {
+            let links = format!("/islands/{island}/champion/{kind}");
+            assert_eq!(made.frames(&links), live.frames(&links));
+        }
+    }
+    let events = |recording: &Recording| BTreeSet::from_iter(recording.texts("/events"));
+    assert_eq!(events(&made), events(&live));
+}
+
+#[test]
+fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() {
+    let world = World::new();
+    let endless = "--population 4 --generations 1000000 --genes 1 --migration-interval 1";
+    let run = world.start(&format!("--n 1 --seed 3 --out run --no-monitor --quiet {endless}"));
+    let dir = RunDir::at(world.path("run"));
+    await_generation(&dir, 1, 2);
+    let monitor = world.start("monitor run --view-address 127.0.0.5");
+    until("there is a recording", || dir.recording().exists());
+    let ending = world.islands("monitor run");
+    let refusal = "error: another monitor records run already\n";
+    assert_eq!((ending.code, ending.stderr.as_str()), (Some(2), refusal), "{ending:?}");
+    run.signal("INT");
+    assert_eq!(run.wait().code, Some(130));
+    let ending = monitor.wait();
+    assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
+    let lines: Vec<&str> = ending.stdout.lines().collect();
+    assert!(lines[0].starts_with("watch it live:  rerun rerun+http://127.0.0.5:"), "{ending:?}");
+    assert_eq!(lines[1..], ["view it:  rerun run/recording.rrd"]);
+    let reports = RecordLog::<Entry>::read(&dir.reports(0)).unwrap().records.len() as i64;
+    assert_eq!(Recording::read(&dir.recording()).generations(1), Vec::from_iter(0..reports));
+}
+
+#[test]
+fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
+    let world = World::new();
+    let settings = "--population 2 --generations 31 --genes 1 --elites 1";
+    world.json(&format!("--n 1 --seed 47 --out run --no-monitor --quiet --json {settings}"));
+    let path = RunDir::at(world.path("run")).champions(0);
+    let champion = RecordLog::<Champion<Gene>>::read(&path).unwrap().records.remove(0);
+    let mut individual = champion.individual;
+    // The next number after the one that it gets.
+    individual.fitness = Fitness::new(individual.fitness.get().next_up());
+    let champions: Vec<_> = (0..=31)
+        .map(|generation| Champion { generation, individual: individual.clone() })
+        .collect();
+    rewrite(&path, &champions);
+
+    let ending = world.islands("monitor run");
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    // The film shows every third generation's champion, and at its end the one that came after the last of them.
+    let warning = "WARNING: the champion of island 0 was reported with ";
+    assert_eq!(ending.stderr.matches(warning).count(), 12, "{ending:?}");
+    let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
+    let count = |word| events.iter().filter(|event| event.starts_with(word)).count();
+    assert_eq!((count(warning), count("new champion, ")), (12, 32));
+}
+
+#[test]
+fn a_recording_that_is_there_is_not_lost_to_damaged_logs() {
+    let world = World::new();
+    world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
+    let dir = RunDir::at(world.path("run"));
+    let (files, recording) = (world.files(), std::fs::read(dir.recording()).unwrap());
+    let refused = || {
+        let Ending { code, stdout, stderr } = world.islands("monitor run");
+        assert_eq!((code, stdout.as_str()), (Some(1), ""), "{stderr}");
+        assert_eq!(world.files(), files);
+        assert_eq!(std::fs::read(dir.recording()).unwrap(), recording);
+        stderr
+    };
+    let entries = RecordLog::<Entry>::read(&dir.reports(1)).unwrap().records;
+    rewrite(&dir.reports(1), &entries[..3]);
+    let said = "error: the run in run is over, but the logs of island 1 hold only the first 3 of its 4 \
+                generations; run/recording.rrd is left as it was\n";
+    assert_eq!(refused(), said);
+
+    rewrite(&dir.reports(1), [&entries[0], &entries[2]]);
+    let warning = "warning: run/reports/island-1.log is damaged: after 1 generations it has generation 2 \
+                   of island 1; the film shows island 1 up to there only\n";
+    assert_eq!(refused(), format!("{warning}{}", said.replace("first 3", "first 1")));
+
+    std::fs::remove_file(dir.recording()).unwrap();
+    let ending = world.islands("monitor run");
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    let recording = Recording::read(&dir.recording());
+    let lengths = [0, 1].map(|island| recording.scalars(&format!("/diversity/{island}")).len());
+    assert_eq!(lengths, [4, 1]);
+}
+
+#[test]
+fn a_recording_that_is_there_is_not_lost_to_a_full_disk() {
+    let world = World::new();
+    world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
+    let path = world.path("run/recording.rrd");
+    let (files, recording) = (world.files(), std::fs::read(&path).unwrap());
+    for (arguments, name) in [
+        ("monitor run", "run/recording.rrd"),
+        ("replay run/champion.csv --out run/recording.rrd", "run/recording.rrd"),
+        ("replay run/champion.csv --out champion.rrd", "champion.rrd"),
+    ] {
+        // To a process that may write so little in a file, the disk is full.
+        let mut command = std::process::Command::new("sh");
+        command.args(["-c", "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\""]);
+        command.arg(world.command("").get_program()).args(arguments.split(' '));
+        let ending: Ending = command.current_dir(world.path("")).output().unwrap().into();
+        assert_eq!(ending.code, Some(1), "{ending:?}");
+        let said = format!("error: cannot write the recording {name}: ");
+        assert!(ending.stderr.contains(&said), "{ending:?}");
+        assert_eq!(world.files(), files);
+        assert_eq!(std::fs::read(&path).unwrap(), recording);
+    }
+}
+
+#[test]
 fn a_recording_tells_what_happened() {
     let world = World::new();
     world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
@@ -110,6 +260,16 @@ fn several_creatures_race_in_one_replay() {
         let (_, film) = problem.film(&genome).unwrap();
         recording.assert_ends_with(lane, &film, Task::Course);
     }
+}
+
+/// Writes a log of these records instead of the one that is there.
+fn rewrite<'a, T>(path: &Path, records: impl IntoIterator<Item = &'a T>)
+where
+    T: Serialize + DeserializeOwned + 'a,
+{
+    let mut log = RecordLog::open(path).unwrap();
+    log.truncate(0).unwrap();
+    records.into_iter().for_each(|record| log.append(record).unwrap());
 }
 
 /// The entity that shows a champion's links of this shape.
@@ -183,6 +343,18 @@ impl Recording {
         }
         points.sort_by_key(|&(generation, _)| generation);
         points
+    }
+
+    /// The generations that every curve of each of so many islands has a point for, in order: the same ones.
+    fn generations(&self, islands: u32) -> Vec<i64> {
+        let curves = ["fitness/best", "fitness/mean", "diversity"];
+        let paths =
+            (0..islands).flat_map(|island| curves.map(|curve| format!("/{curve}/{island}")));
+        let all: BTreeSet<Vec<i64>> = paths
+            .map(|path| self.scalars(&path).into_iter().map(|(generation, _)| generation).collect())
+            .collect();
+        assert_eq!(all.len(), 1, "{all:?}");
+        all.into_iter().next().unwrap()
     }
 
     fn texts(&self, path: &str) -> Vec<String> {

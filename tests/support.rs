@@ -185,6 +185,11 @@ impl Running {
         signal(self.pid(), name);
     }
 
+    /// Whether it has come to its end.
+    pub fn has_ended(&mut self) -> bool {
+        self.0.as_mut().unwrap().try_wait().unwrap().is_some()
+    }
+
     /// Waits for its end.
     pub fn wait(mut self) -> Ending {
         self.0.take().unwrap().wait_with_output().unwrap().into()

@@ -66,8 +66,12 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Film genomes for the Rerun viewer
     Replay(ReplayArgs),
-    /// Record and serve a run that is under way; `run` starts one by itself
+    /// Record and serve a run, under way or over; `run` starts one by itself
     Monitor(MonitorArgs),
+    /// Check that a run's folder holds what it claims, by simulating its champions again
+    Verify(VerifyArgs),
+    /// Remove what crashed runs left in shared memory; runs under way are not touched
+    Clean(CleanArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
     Island(IslandArgs),
@@ -106,8 +110,8 @@ pub struct OutputArgs {
     /// Record and serve nothing; every other file is written all the same
     #[arg(long, help_heading = "Running")]
     pub no_monitor: bool,
-    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
-    /// watch, without a password
+    /// Serve the live view on this address of the machine. Who can reach it can watch, without a password,
+    /// and show something else to others who watch: on any but 127.0.0.1 that may be many
     #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
     pub view_address: IpAddr,
     /// Show no progress
@@ -184,12 +188,55 @@ pub struct ReplayArgs {
 /// Watching.
 #[derive(Debug, Args)]
 pub struct MonitorArgs {
-    /// Folder of a run that is under way
+    /// Folder of a run, under way or over
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
+    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
+    /// watch, and show something else to the others who watch, without a password
+    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into())]
+    pub view_address: IpAddr,
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
     pub parent: Option<i32>,
+}
+
+/// Checking a run.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Every checksum is checked, the records of each island are compared with one another and with
+its checkpoints, the digest is computed again from the final populations, and every champion is
+simulated again and must get its fitness to the last bit. Nothing in the folder is changed. A run
+that was interrupted or killed may be verified as well: it has no digest yet, and a record that
+was being written when it died is no damage.
+
+Exit codes: 0 all is as it is claimed, 1 something is not, 2 there is no run or it is under way.
+
+Examples:
+  islands verify runs/walk-seed7               what the run claims holds here too
+  islands verify runs/walk-seed7 --thorough    so does the fitness of everybody else
+  islands verify runs/walk-seed7 --json | tail -n 1 | jq .ok"
+)]
+pub struct VerifyArgs {
+    /// Folder of a run that is not under way
+    #[arg(value_name = "RUN_DIR")]
+    pub dir: PathBuf,
+    /// Simulate the newest populations and all migrants again too, not only the champions
+    #[arg(long)]
+    pub thorough: bool,
+    /// Threads [default: all cores]
+    #[arg(long, value_name = "K")]
+    pub threads: Option<usize>,
+    /// Print the result as one JSON object, the last line of standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Cleaning.
+#[derive(Debug, Args)]
+pub struct CleanArgs {
+    /// Only list it
+    #[arg(long)]
+    pub dry_run: bool,
 }
 
 /// One island.

@@ -5,6 +5,7 @@ use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_M
 use crate::creature::Profile;
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
+use crate::store::{RunDir, file};
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -21,6 +22,13 @@ pub const GENES_MAX: usize = 1_000;
 pub const GENES_OF_ISLAND_MAX: usize = 5_000_000;
 /// The largest body that may be asked for, in links.
 pub const LINKS_MAX: usize = 512;
+/// The most threads.
+pub const THREADS_MAX: usize = 4_096;
+
+/// The largest configuration file, in bytes; ours have a thousand.
+const FILE_BYTES_MAX: usize = 1 << 20;
+/// The longest complaint about a file that is passed on, in characters.
+const COMPLAINT_MAX: usize = 400;
 
 /// Everything that decides a run. Command-line flags of the same names win over a file, and what neither
 /// says has the default.
@@ -121,13 +129,38 @@ impl Config {
     /// Reads a configuration file.
     ///
     /// # Errors
-    /// If it cannot be read, is no TOML, or says something that a configuration does not know.
+    /// If it cannot be read, is too large, no TOML, or says something that a configuration does not know.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let wrong =
             |reason: String| Failure::usage(format!("cannot use {}: {reason}", path.display()));
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| wrong(format!("{error}; name a file such as a run's run.toml")))?;
-        toml::from_str(&text).map_err(|error| wrong(one_line(&error, &text)))
+        let text = file::read_text(path, FILE_BYTES_MAX).map_err(|error| {
+            wrong(format!("{}; name a file such as a run's run.toml", error.reason()))
+        })?;
+        Self::parse(&text).map_err(wrong)
+    }
+
+    /// Reads what a configuration file says.
+    ///
+    /// # Errors
+    /// What is wrong with it, if it is no TOML or says something that a configuration does not know.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        toml::from_str(text).map_err(|error| one_line(&error, text))
+    }
+
+    /// Reads the configuration of a run that was launched.
+    ///
+    /// # Errors
+    /// If it cannot be read, is not sound, or was not written by a launch.
+    pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
+        let config = Self::read(&dir.config())?;
+        config.check()?;
+        match config.launch {
+            Some(_) => Ok(config),
+            None => Err(Failure::usage(format!(
+                "{} was not written by a run: start one with islands --config {0}",
+                dir.config().display()
+            ))),
+        }
     }
 
     /// The file that says the same.
@@ -180,10 +213,8 @@ impl Config {
         if self.seed.is_some_and(|seed| seed > SEED_MAX) {
             return Err(Failure::usage(format!("seed must be at most {SEED_MAX}")));
         }
-        match self.threads {
-            Some(0) => Err(Failure::usage("threads must be at least 1".to_owned())),
-            _ => Ok(()),
-        }
+        let threads = self.threads.unwrap_or(1);
+        within("threads", threads as f64, 1.0, THREADS_MAX as f64)
     }
 
     /// The settings that decide what evolves, as TOML: all but how long and how it is run. States that were
@@ -248,7 +279,9 @@ impl Config {
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.
 fn one_line(error: &toml::de::Error, text: &str) -> String {
-    let message = error.message().replace('\n', " ");
+    // It may quote the file: neither at any length nor what a terminal would obey.
+    let shown = error.message().chars().take(COMPLAINT_MAX);
+    let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
     match error.span().and_then(|span| text.get(..span.start)) {
         Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
         None => message,
@@ -282,6 +315,7 @@ mod tests {
             Config { point_rate: f64::NAN, ..sound.clone() },
             Config { migration_interval: 0, ..sound.clone() },
             Config { threads: Some(0), ..sound.clone() },
+            Config { threads: Some(usize::MAX), ..sound.clone() },
             Config { seed: Some(u64::MAX), ..sound.clone() },
         ] {
             assert!(wrong.check().is_err(), "{wrong:?}");

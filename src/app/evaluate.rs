@@ -1,12 +1,16 @@
 //! `islands evaluate`: scores genomes.
 
 use super::cli::EvaluateArgs;
+use super::config::THREADS_MAX;
 use super::console::{Stopwatch, print};
 use super::{Failure, genomes};
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Problem};
 use serde::Serialize;
 use std::path::PathBuf;
+
+/// The most that everything is evaluated.
+const REPEAT_MAX: usize = 1_000_000;
 
 #[derive(Serialize)]
 struct Scores {
@@ -33,12 +37,15 @@ struct Score {
 /// # Errors
 /// If one cannot be read.
 pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
-    if args.threads == Some(0) || args.repeat == 0 {
-        return Err(Failure::usage("--threads and --repeat must be at least 1"));
+    let threads_fit = (1..=THREADS_MAX).contains(&args.threads.unwrap_or(1));
+    if !threads_fit || !(1..=REPEAT_MAX).contains(&args.repeat) {
+        return Err(Failure::usage(format!(
+            "--threads and --repeat must be at least 1, and at most {THREADS_MAX} and {REPEAT_MAX}"
+        )));
     }
+    let problem = args.trial.problem()?;
     let read = |path: &PathBuf| genomes::read(path);
     let genomes: Vec<Vec<Gene>> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-    let problem = args.trial.problem();
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
         .build()

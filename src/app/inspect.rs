@@ -11,9 +11,10 @@ use crate::formats::Inspection;
 /// # Errors
 /// If it cannot be read or expressed.
 pub fn run(args: &InspectArgs) -> Result<(), Failure> {
+    let links_max = genomes::links_max(args.max_links)?;
     let genome = genomes::read(&args.genome)?;
     let wrong = |error| Failure::usage(format!("cannot build {}: {error}", args.genome.display()));
-    let creature = creature::express(&genome, args.profile, args.max_links).map_err(wrong)?;
+    let creature = creature::express(&genome, args.profile, links_max).map_err(wrong)?;
     if args.json {
         let source = args.genome.file_name().unwrap_or(args.genome.as_os_str());
         let inspection =

@@ -20,7 +20,7 @@ use std::fmt::Display;
 pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let ear = Ear::to(args.parent)?;
     let dir = RunDir::at(&args.dir);
-    let config = Config::read(&dir.config())?;
+    let config = Config::of_run(&dir)?;
     let archipelago = config.archipelago();
     // Before any thread makes a file: opening changes the umask for a moment.
     let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;

@@ -1,14 +1,18 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. The launcher (`launcher`) starts a
-//! process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with
-//! it, and stop when it closes their standard input. It shows their progress (`progress`), and at the end
-//! gathers what they wrote into a result (`result`). `evaluate`, `inspect` and `replay` look at single genomes.
+//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. The `launcher` makes
+//! what a run needs, or finds it (`resume`); its `supervisor` starts a process for each island (`island`) and one
+//! that watches (`monitor`), and starts them again when they die, unless that has no hope (`mortality`). They are
+//! its `crew`, tied to it by `kinship`: they die with it, and stop when it closes their standard input. What
+//! happens is told and logged by a `chronicle`, how far it got shown by `progress`; at the end what the islands
+//! wrote is gathered into a `result`. `clean` removes what a killed launcher left, `verify` looks whether a run's folder holds what it claims, `evaluate`,
+//! `inspect` and `replay` look at single genomes.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
 mod chronicle;
+mod clean;
 mod cli;
 pub mod config;
 mod console;
@@ -28,6 +32,8 @@ mod result;
 mod resume;
 mod settings;
 mod supervisor;
+mod table;
+mod verify;
 
 use cli::Command;
 use std::process::ExitCode;
@@ -44,6 +50,8 @@ pub fn main() -> ExitCode {
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),
         Some(Command::Monitor(args)) => monitor::run(&args),
+        Some(Command::Verify(args)) => verify::run(&args),
+        Some(Command::Clean(args)) => clean::run(&args),
         Some(Command::Island(args)) => island::run(&args),
     };
     match done {

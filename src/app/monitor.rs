@@ -1,13 +1,20 @@
-//! The monitor's process: films what the islands report, and serves it live. It only looks: a run without
-//! it loses nothing but the film.
+//! The monitor's process: films what the islands write down, and serves it live. It only looks: a run without
+//! it loses nothing but the film, and a monitor that dies loses nothing at all, since another one makes the
+//! same film anew. [`logs`] reads what the islands wrote, [`cinema`] shows it, and here is when.
 
 use super::Failure;
 use super::cli::MonitorArgs;
 
-/// Records and serves the run in a folder until its launcher, or the user, stops it.
+#[cfg(feature = "view")]
+mod cinema;
+#[cfg(feature = "view")]
+mod logs;
+
+/// Records and serves the run in a folder: one that is over, to its end; one that is under way, until it ends
+/// or the launcher or the user stops it.
 ///
 /// # Errors
-/// If the run is not under way, or the recording cannot be written.
+/// If there is no run or nothing to film, another monitor is at it, or the recording cannot be written.
 #[cfg(feature = "view")]
 pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
     watched::run(args)
@@ -28,20 +35,21 @@ mod watched {
     use super::super::config::Config;
     use super::super::console::{print, say};
     use super::super::kinship::{Ear, SERVING, tell};
+    use super::super::result;
     use super::MonitorArgs;
-    use crate::creature::Gene;
-    use crate::evolution::{Individual, Problem};
-    use crate::problems::Locomotion;
+    use super::cinema::Cinema;
+    use super::logs::Logs;
     use crate::store::RunDir;
-    use crate::transport::{Lookout, Sighting};
-    use crate::view::{Clip, Live, Pace, Recorder, RunCard, ViewError};
-    use std::collections::BTreeSet;
+    use crate::view::Live;
+    use std::fs::{File, TryLockError};
     use std::time::Duration;
 
     /// The monitor looks about so often.
     const LOOK: Duration = Duration::from_millis(20);
     /// How much the monitor stands back behind the islands: filming must not cost them evaluations.
     const NICENESS: i32 = 10;
+    /// The rounds of generations that are shown before a full disk is noticed and a viewer gets to see them.
+    const BATCH: usize = 64;
 
     pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
         let ear = match args.parent {
@@ -51,127 +59,124 @@ mod watched {
         // Standing back is a courtesy: where it is not to be had, filming goes on.
         let _ = rustix::process::nice(NICENESS);
         let dir = RunDir::at(&args.dir);
-        let config = Config::read(&dir.config())?;
-        let lookout = Lookout::<Gene>::open(&config.domain()?, &config.archipelago())?;
-        let recorder = open_recorder(&dir, &config)?;
-        let has_launcher = args.parent.is_some();
-        match recorder.address() {
-            Some(address) if has_launcher => tell(&format!("{SERVING}{address}")),
+        let config = configuration(&dir)?;
+        let launched = args.parent.is_some();
+        let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
+        // Nobody has the time to attach to a run that is over.
+        let live = (launched || dir.is_under_way()?)
+            .then(|| Live { address: args.view_address, ..Live::default() });
+        let folder = if launched { dir.partial() } else { dir.path().to_owned() };
+        let cinema = Cinema::open(&folder, &dir.recording(), live, &config)?;
+        match cinema.address() {
+            Some(address) if launched => tell(&format!("{SERVING}{address}")),
             Some(address) => print(&format!("watch it live:  rerun {address}")),
             None => {}
         }
-        let mut cinema = Cinema { problem: config.problem(), recorder };
-        let mut evolving: BTreeSet<u32> = (0..config.islands).collect();
-        loop {
-            let last = ear.heard_stop();
-            let sightings = lookout.receive();
-            let idle = sightings.is_empty();
-            crosses_off_the_last(&mut evolving, &sightings, config.generations);
-            for sighting in sightings {
-                cinema.show(&sighting)?;
-            }
-            if last && idle {
-                return Ok(cinema.recorder.finish()?);
-            }
-            if idle {
-                std::thread::sleep(LOOK);
+        let logs = Logs::of(&dir, config.islands);
+        Show { dir, config, launched, ear, logs, cinema }.run()
+    }
+
+    /// What the run is.
+    fn configuration(dir: &RunDir) -> Result<Config, Failure> {
+        if !dir.config().exists() {
+            let path = dir.path().display();
+            return Err(Failure::usage(format!("there is no run in {path}: it has no run.toml")));
+        }
+        let config = Config::of_run(dir)?;
+        config.check()?;
+        Ok(config)
+    }
+
+    /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while
+    /// it waited for another one to end.
+    fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, Failure> {
+        let mut folder = dir.champions(0);
+        folder.pop();
+        let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
+        let file = File::open(&folder).map_err(failed)?;
+        while !ear.heard_stop() {
+            match file.try_lock() {
+                Ok(()) => return Ok(Some(file)),
+                Err(TryLockError::Error(error)) => return Err(failed(error)),
+                Err(TryLockError::WouldBlock) if launched => std::thread::sleep(LOOK),
+                Err(TryLockError::WouldBlock) => {
+                    let path = dir.path().display();
+                    return Err(Failure::usage(format!("another monitor records {path} already")));
+                }
             }
         }
+        Ok(None)
     }
 
-    /// Crosses off the islands whose last report is here; whether there were some, and none is left.
-    fn crosses_off_the_last(
-        evolving: &mut BTreeSet<u32>,
-        sightings: &[Sighting<Gene>],
-        generations: u32,
-    ) -> bool {
-        let reports = sightings.iter().map(|sighting| sighting.report);
-        let last = reports.filter(|report| report.generation == generations);
-        let crossed = last.filter(|report| evolving.remove(&report.island)).count();
-        crossed > 0 && evolving.is_empty()
+    struct Show {
+        dir: RunDir,
+        config: Config,
+        launched: bool,
+        ear: Ear,
+        logs: Logs,
+        cinema: Cinema,
     }
 
-    /// Records and serves; where no port is free, only records.
-    fn open_recorder(dir: &RunDir, config: &Config) -> Result<Recorder, ViewError> {
-        let path = dir.recording();
-        match Recorder::create(&path, Some(Live::default()), run_card(config)) {
-            Err(error @ ViewError::NoFreePort { .. }) => {
-                say(&format!("warning: {error}; this run is only recorded"));
-                Recorder::create(&path, None, run_card(config))
+    impl Show {
+        fn run(mut self) -> Result<(), Failure> {
+            let mut last = false;
+            loop {
+                if self.look()? {
+                    continue;
+                }
+                if last {
+                    return self.end();
+                }
+                // What was written before this is read after it.
+                last = self.ear.heard_stop() || !(self.launched || self.dir.is_under_way()?);
+                if !last {
+                    self.cinema.publish()?;
+                    std::thread::sleep(LOOK);
+                }
             }
-            result => result,
-        }
-    }
-
-    struct Cinema {
-        problem: Locomotion,
-        recorder: Recorder,
-    }
-
-    impl Cinema {
-        fn show(&mut self, sighting: &Sighting<Gene>) -> Result<(), Failure> {
-            let report = &sighting.report;
-            let (island, generation) = (report.island, report.generation);
-            if report.immigrants > 0 {
-                let news = format!("{} immigrants arrive", report.immigrants);
-                self.recorder.event(Some(island), generation, &news)?;
-            }
-            if let Some(champion) = &sighting.champion {
-                self.film(island, generation, champion)?;
-            }
-            self.recorder.report(report)?;
-            Ok(self.recorder.flush()?)
         }
 
-        /// Simulates a champion again. It must get the fitness that it was reported with, bit for bit: what is
-        /// seen is what was scored.
-        fn film(
-            &mut self,
-            island: u32,
-            generation: u32,
-            champion: &Individual<Gene>,
-        ) -> Result<(), Failure> {
-            let Ok((evaluation, trajectory)) = self.problem.film(&champion.genome) else {
-                return Ok(());
-            };
-            let score = self.problem.show(champion.fitness);
-            let origin = match champion.id.island {
-                born if born == island => String::new(),
-                born => format!(", born on island {born}"),
-            };
-            let mut news =
-                format!("new champion, {score}, {} links{origin}", trajectory.shapes.len());
-            if evaluation.fitness != champion.fitness {
-                news = format!(
-                    "WARNING: the champion of island {island} was reported with {:?}, but gets {:?} here: \
-                     the islands and the monitor do not simulate the same",
-                    champion.fitness, evaluation.fitness
+        /// Shows what is there, or a part of it; whether there was something.
+        fn look(&mut self) -> Result<bool, Failure> {
+            for round in 0..BATCH {
+                let sightings = self.logs.next_round();
+                if sightings.is_empty() {
+                    self.cinema.flush()?;
+                    return Ok(round > 0);
+                }
+                sightings.iter().try_for_each(|sighting| self.cinema.show(sighting))?;
+            }
+            self.cinema.flush()?;
+            Ok(true)
+        }
+
+        /// Everything was read.
+        fn end(self) -> Result<(), Failure> {
+            let Self { dir, config, launched, logs, cinema, .. } = self;
+            if launched {
+                return cinema.finish();
+            }
+            let (folder, recording) = (dir.path().display(), dir.recording());
+            if !cinema.has_shown() {
+                return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
+            }
+            let is_over = result::finished(&dir, &config).is_some();
+            let short = logs.first_short_of(config.generations).filter(|_| is_over);
+            if let Some((island, generations)) = short {
+                let news = format!(
+                    "the run in {folder} is over, but the logs of island {island} hold only the first \
+                     {generations} of its {} generations",
+                    config.generations + 1
                 );
-                say(&news);
+                if recording.exists() {
+                    let news = format!("{news}; {} is left as it was", recording.display());
+                    return Err(Failure::failed(news));
+                }
+                say(&format!("warning: {news}"));
             }
-            self.recorder.event(Some(island), generation, &news)?;
-            let clip = Clip {
-                island,
-                generation,
-                label: format!("gen {generation} · {score}"),
-                trajectory,
-            };
-            Ok(self.recorder.champion(&clip)?)
-        }
-    }
-
-    fn run_card(config: &Config) -> RunCard {
-        let archipelago = config.archipelago();
-        let edges = (0..config.islands).flat_map(|island| {
-            archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
-        });
-        let trial = config.task.trial();
-        RunCard {
-            islands: config.islands,
-            unit: config.problem().unit().to_owned(),
-            description_markdown: format!("# A run\n\n```toml\n{}```\n", config.to_toml()),
-            topology_edges: edges.collect(),
-            pace: Pace::for_run(config.generations, trial.settle_s + trial.scored_s),
+            cinema.finish()?;
+            print(&format!("view it:  rerun {}", recording.display()));
+            Ok(())
         }
     }
 }

@@ -12,11 +12,11 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
     use super::console::print;
     use super::genomes;
     use crate::evolution::Problem;
-    use crate::view::{Clip, Pace, Recorder, RunCard};
+    use crate::view::{Clip, Draft, Pace, Recorder, RunCard};
 
+    let problem = args.trial.problem()?;
     let genomes: Vec<_> =
         args.genomes.iter().map(|path| genomes::read(path)).collect::<Result<_, _>>()?;
-    let problem = args.trial.problem();
     let trial = args.trial.task.trial();
     let names: Vec<String> =
         args.genomes.iter().map(|path| format!("- {}\n", path.display())).collect();
@@ -33,7 +33,8 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
         films.push(problem.film(genome).map_err(wrong)?);
     }
     let elsewhere = |error| Failure::usage(format!("{error}; choose another file with --out"));
-    let mut recorder = Recorder::create(&args.out, None, card).map_err(elsewhere)?;
+    let draft = Draft::beside(&args.out).map_err(elsewhere)?;
+    let mut recorder = Recorder::create(draft, None, card).map_err(elsewhere)?;
     for ((index, path), (evaluation, trajectory)) in (0..).zip(&args.genomes).zip(films) {
         let score = problem.show(evaluation.fitness);
         let name = path.file_stem().map(|stem| stem.to_string_lossy()).unwrap_or_default();

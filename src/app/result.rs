@@ -12,6 +12,9 @@ use crate::store::{Champion, Entry, RecordLog, RunDir, StoreError, checkpoint, f
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
+/// A summary is some hundred bytes long.
+const SUMMARY_BYTES_MAX: usize = 1 << 20;
+
 /// The result of a run, as `summary.json` and `--json` say it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
@@ -62,14 +65,14 @@ pub struct Summary {
 /// The result of a run that has finished: what it said then, as long as its final populations still say the same.
 /// None if it has not finished, or something of it has to be evolved again.
 pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
-    let summary = file::read(&dir.summary()).ok()?;
+    let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
     let islands = final_islands(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
     is_sound.then(|| Summary {
         // The folder may have been moved.
-        best: config.problem().show(champion(&islands).champion.fitness),
+        best: config.problem().show(best(&islands).champion.fitness),
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
         recording: Some(dir.recording()).filter(|path| path.exists()),
@@ -87,15 +90,26 @@ pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
     let reports: Vec<Vec<Entry>> = (0..config.islands)
         .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
         .collect::<Result<_, StoreError>>()?;
-    merge_metrics(dir, &reports)?;
+    dir.write(&dir.metrics(), |out| metrics::write(&rows(&reports), true, out))?;
+    write_champion(dir, &config.problem(), &best(&islands).champion)?;
+    let summary = summarise(dir, config, &islands, &reports);
+    dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
+    Ok(summary)
+}
+
+/// What the final states of all islands and their reports come to, in the order of their index.
+pub fn summarise(
+    dir: &RunDir,
+    config: &Config,
+    islands: &[Island<Gene>],
+    reports: &[Vec<Entry>],
+) -> Summary {
     let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
-    let best = champion(&islands);
-    let problem = config.problem();
-    write_champion(dir, &problem, &best.champion)?;
+    let (best, problem) = (best(islands), config.problem());
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
-    let summary = Summary {
-        digest: Digest::of(&islands).to_string(),
+    Summary {
+        digest: Digest::of(islands).to_string(),
         best_fitness: best.champion.fitness.saturated(),
         best: problem.show(best.champion.fitness),
         best_genome: dir.champion_genome(),
@@ -115,25 +129,29 @@ pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
         run_dir: dir.path().to_owned(),
         recording: Some(dir.recording()).filter(|path| path.exists()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
-    };
-    dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
-    Ok(summary)
+    }
 }
 
-fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
-    (0..config.islands)
-        .map(|island| Ok(checkpoint::load(&dir.checkpoint(island, config.generations))?.island))
-        .collect()
-}
-
-/// The island with the best creature ever, the first of equal ones.
-fn champion(islands: &[Island<Gene>]) -> &Island<Gene> {
+/// The island with the best champion, the first of equal ones.
+pub fn best(islands: &[Island<Gene>]) -> &Island<Gene> {
     islands
         .iter()
         .reduce(
             |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
         )
         .expect("a run has at least one island")
+}
+
+fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
+    (0..config.islands)
+        .map(|index| {
+            let path = dir.checkpoint(index, config.generations);
+            let island: Island<Gene> = checkpoint::load(&path)?.island;
+            let misfit = island.fits(&config.archipelago(), index);
+            misfit.map_err(|misfit| StoreError::damaged(&path, misfit.to_string()))?;
+            Ok(island)
+        })
+        .collect()
 }
 
 /// Writes a creature as the run's champion: its genome, and its body.
@@ -195,12 +213,11 @@ impl Podium {
     }
 }
 
-/// The rows of all islands in one file, ordered by generation, then island.
-fn merge_metrics(dir: &RunDir, reports: &[Vec<Entry>]) -> Result<(), Failure> {
+/// The rows of the metrics: of all islands, ordered by generation, then island.
+pub fn rows(reports: &[Vec<Entry>]) -> Vec<metrics::Row> {
     let entries = reports.iter().flatten();
     let mut rows: Vec<_> =
         entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
     rows.sort_by_key(|row| (row.generation, row.island));
-    dir.write(&dir.metrics(), |out| metrics::write(&rows, true, out))?;
-    Ok(())
+    rows
 }

@@ -2,9 +2,15 @@
 
 use super::Failure;
 use super::config::Config;
+use super::console::Stopwatch;
 use super::settings::SettingArgs;
 use crate::creature::Gene;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// A launcher that was killed may hold its claim for so long.
+const AFTERLIFE: Duration = Duration::from_millis(200);
 
 /// Claims the run in a folder.
 ///
@@ -17,12 +23,20 @@ pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
             dir.path().display()
         )));
     }
-    dir.claim().map_err(|error| match error {
-        StoreError::UnderWay { .. } => {
-            Failure::usage(format!("{error}; wait for its end, or stop it first"))
+    let watch = Stopwatch::start();
+    loop {
+        match dir.claim() {
+            // Of a launcher that was killed over starting somebody a copy lives on for a moment.
+            Err(StoreError::UnderWay { .. }) if watch.elapsed() < AFTERLIFE => {
+                sleep(AFTERLIFE / 10)
+            }
+            Err(error @ StoreError::UnderWay { .. }) => {
+                let advice = "wait for its end, or stop it first";
+                return Err(Failure::usage(format!("{error}; {advice}")));
+            }
+            claim => return Ok(claim?),
         }
-        error => error.into(),
-    })
+    }
 }
 
 /// The configuration that a claimed run goes on with: its own, and what the user wants otherwise.
@@ -30,16 +44,8 @@ pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
 /// # Errors
 /// If that would change what it evolves.
 pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
-    let own = Config::read(&dir.config())?;
-    own.check()?;
-    let launch = own.launch.as_ref();
-    let launch = launch.ok_or_else(|| {
-        Failure::usage(format!(
-            "{} was not written by a run: start one with islands --config {0}",
-            dir.config().display()
-        ))
-    })?;
-    require_version(&launch.version)?;
+    let own = Config::of_run(dir)?;
+    require_version(own.launch.as_ref().map_or("", |launch| &launch.version))?;
     let config = wish.over(own.clone());
     config.check()?;
     let changes = differences(&own.settings(), &config.settings());

@@ -4,7 +4,7 @@ use super::Archipelago;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::{Gene, Id, Individual, Problem, Statistics};
+use crate::evolution::{Gene, Individual, Problem, Statistics};
 use serde::{Deserialize, Serialize};
 
 /// The whole state of an island between two generations.
@@ -21,68 +21,6 @@ pub struct Island<G> {
     pub champion: Individual<G>,
     /// What all its evaluations so far cost.
     pub effort: Effort,
-}
-
-/// Why something is no state of an island.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum Misfit {
-    /// It is another island's.
-    #[error("it is another island's")]
-    Index,
-    /// Its population is not of the size that the run has.
-    #[error("it has not as many individuals as a population has")]
-    Size,
-    /// A genome is empty or too long.
-    #[error("it has a genome that is empty or too long")]
-    Length,
-    /// A gene may not be used.
-    #[error("it has a gene that is not valid")]
-    Gene,
-    /// Someone's or their parent's birthplace does not exist, or did not by then.
-    #[error("it has an individual from nowhere")]
-    Lineage,
-    /// Someone is better than the champion.
-    #[error("its champion is not the best")]
-    Champion,
-    /// There are not as many evaluations as ended somehow.
-    #[error("its evaluations do not add up")]
-    Effort,
-}
-
-impl<G: Gene> Island<G> {
-    /// Whether this can be a state of island `index` of `archipelago`: ask this of what was read from a file.
-    ///
-    /// # Errors
-    /// The first reason that is found why it cannot.
-    pub fn fits(&self, archipelago: &Archipelago, index: u32) -> Result<(), Misfit> {
-        let Island { population, champion, effort, .. } = self;
-        require(self.index == index && index < archipelago.islands, Misfit::Index)?;
-        require(population.len() == archipelago.strategy.population, Misfit::Size)?;
-        for individual in population.iter().chain([champion]) {
-            possible(individual, archipelago, self.generation)?;
-        }
-        require(population.iter().all(|i| i.fitness <= champion.fitness), Misfit::Champion)?;
-        let ended = effort.outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
-        require(ended == Some(effort.evaluations), Misfit::Effort)
-    }
-}
-
-/// Whether there can be such an individual in a run by the end of `generation`.
-pub(super) fn possible<G: Gene>(
-    individual: &Individual<G>,
-    run: &Archipelago,
-    generation: u32,
-) -> Result<(), Misfit> {
-    let Individual { id, parents, genome, .. } = individual;
-    let lengths = 1..=run.strategy.variation.genes_max;
-    let exists = |id: &Id| id.island < run.islands && id.generation <= generation;
-    require(lengths.contains(&genome.len()), Misfit::Length)?;
-    require(genome.iter().all(Gene::is_valid), Misfit::Gene)?;
-    require(parents.iter().flatten().chain([id]).all(exists), Misfit::Lineage)
-}
-
-fn require(condition: bool, otherwise: Misfit) -> Result<(), Misfit> {
-    if condition { Ok(()) } else { Err(otherwise) }
 }
 
 /// What one generation of one island was like: a row of the metrics.
@@ -174,55 +112,4 @@ pub fn step<P: Problem>(
         effort: spent.and(effort),
     };
     Step { island, outbox, report, new_champion }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::archipelago::tests::toy::{Bit, Toy, archipelago};
-    use crate::archipelago::{Migration, lockstep};
-    use crate::evolution::Fitness;
-
-    const GENERATION: u32 = 6;
-
-    fn run() -> Archipelago {
-        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0 })
-    }
-
-    #[test]
-    fn a_state_that_was_evolved_fits_its_island_and_no_other() {
-        let islands = lockstep::run(&Toy, &run(), GENERATION, |step| {
-            assert_eq!(step.island.fits(&run(), step.island.index), Ok(()));
-        });
-        assert_eq!(islands[1].fits(&run(), 2), Err(Misfit::Index));
-        let fewer = Archipelago { islands: 1, ..run() };
-        assert_eq!(islands[1].fits(&fewer, 1), Err(Misfit::Index));
-    }
-
-    #[test]
-    fn a_state_that_breaks_a_rule_is_refused() {
-        type Break = fn(&mut Island<Bit>);
-        let rules: [(Misfit, Break); 14] = [
-            (Misfit::Size, |i| drop(i.population.pop())),
-            (Misfit::Size, |i| i.population.push(i.champion.clone())),
-            (Misfit::Length, |i| i.population[1].genome.clear()),
-            (Misfit::Length, |i| i.champion.genome = vec![Bit(0); 99]),
-            (Misfit::Gene, |i| i.population[1].genome[0] = Bit(2)),
-            (Misfit::Gene, |i| i.champion.genome[0] = Bit(2)),
-            (Misfit::Lineage, |i| i.population[0].id.island = 3),
-            (Misfit::Lineage, |i| i.population[0].id.generation = GENERATION + 1),
-            (Misfit::Lineage, |i| i.champion.id.generation = GENERATION + 1),
-            (Misfit::Lineage, |i| i.champion.parents[1] = Some(Id { island: 3, ..i.champion.id })),
-            (Misfit::Champion, |i| i.population[2].fitness = Fitness::new(999.0)),
-            (Misfit::Champion, |i| i.champion.fitness = Fitness::WORST),
-            (Misfit::Effort, |i| i.effort.evaluations += 1),
-            (Misfit::Effort, |i| i.effort.outcomes = [u64::MAX; 7]),
-        ];
-        let islands = lockstep::run(&Toy, &run(), GENERATION, |_| ());
-        for (number, (misfit, break_rule)) in rules.into_iter().enumerate() {
-            let mut island = islands[1].clone();
-            break_rule(&mut island);
-            assert_eq!(island.fits(&run(), 1), Err(misfit), "rule {number}");
-        }
-    }
 }

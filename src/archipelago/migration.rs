@@ -4,10 +4,8 @@
 //! k - 1 - L of every in-neighbour, where there is one, and ends by sending outbox k. With a lag L of 1 or
 //! more an island evolves on while its neighbours' migrants are under way.
 
-use super::Archipelago;
-use super::island::possible;
 use crate::evolution::population::{Population, ranking};
-use crate::evolution::{Gene, Individual, Problem};
+use crate::evolution::{Individual, Problem};
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 
@@ -55,20 +53,6 @@ pub struct Outbox<G> {
     pub epoch: u32,
     /// Copies of its best individuals, the best first.
     pub migrants: Vec<Individual<G>>,
-}
-
-impl<G: Gene> Outbox<G> {
-    /// Whether island `source` of `archipelago` can have sent this: ask this of what was read from a file.
-    pub fn fits(&self, archipelago: &Archipelago, source: u32) -> bool {
-        let interval = archipelago.migration.interval;
-        let generation = self.epoch.saturating_add(1).saturating_mul(interval);
-        self.island == source
-            && self.migrants.len() <= archipelago.migration.migrants
-            && self
-                .migrants
-                .iter()
-                .all(|migrant| possible(migrant, archipelago, generation).is_ok())
-    }
 }
 
 /// Phase: the outbox of an epoch, copies of the best of the population.

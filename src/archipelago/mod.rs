@@ -2,8 +2,8 @@
 //!
 //! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
 //! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
-//! sees it: state machines without a channel, a clock or a file;
-//! [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
+//! sees it: state machines without a channel, a clock or a file; [`soundness`] says what of a file can be
+//! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!
 //! Architecture invariant: pure, like [`crate::evolution`]. Whether migrants travel through shared memory,
@@ -14,6 +14,7 @@ pub mod inbox;
 pub mod island;
 pub mod lockstep;
 pub mod migration;
+pub mod soundness;
 pub mod topology;
 pub mod voyage;
 
@@ -22,8 +23,9 @@ mod tests;
 
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
-pub use island::{Island, Misfit, Report, Step};
+pub use island::{Island, Report, Step};
 pub use migration::{Migration, Outbox};
+pub use soundness::Misfit;
 pub use topology::Topology;
 pub use voyage::{Deed, Voyage};
 

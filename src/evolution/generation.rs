@@ -64,17 +64,18 @@ pub struct Effort {
 impl Effort {
     /// Adds up two efforts.
     pub fn and(mut self, other: Effort) -> Effort {
-        self.evaluations += other.evaluations;
-        self.reused += other.reused;
+        // Efforts are also read from files, which may say anything.
+        self.evaluations = self.evaluations.saturating_add(other.evaluations);
+        self.reused = self.reused.saturating_add(other.reused);
         for (sum, more) in self.outcomes.iter_mut().zip(other.outcomes) {
-            *sum += more;
+            *sum = sum.saturating_add(more);
         }
         self
     }
 
     /// Evaluations that did not end in a score.
     pub fn failures(&self) -> u64 {
-        self.evaluations - self.outcomes[Outcome::Scored as usize]
+        self.evaluations.saturating_sub(self.outcomes[Outcome::Scored as usize])
     }
 }
 

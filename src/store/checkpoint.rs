@@ -6,7 +6,7 @@
 use super::{BYTES_MAX, StoreError, atomic, checksum, decode, encode, file};
 use crate::archipelago::Island;
 use crate::evolution::Gene;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::path::Path;
 
 const MAGIC: [u8; 8] = *b"islands\n";
@@ -17,6 +17,7 @@ const VERSION: u32 = 1;
 #[serde(bound = "G: Gene")]
 pub struct Checkpoint<G> {
     /// The settings that it evolves under, as TOML: a state is of use only under the same ones.
+    #[serde(deserialize_with = "text")]
     pub settings: String,
     /// Its state between two generations.
     pub island: Island<G>,
@@ -40,11 +41,17 @@ pub fn save<G: Gene>(
 /// # Errors
 /// If the file cannot be read, is of an unknown version, or is not to the last bit what was saved.
 pub fn load<G: Gene>(path: &Path) -> Result<Checkpoint<G>, StoreError> {
-    from_bytes(&file::read(path)?, path)
+    from_bytes(&file::read(path, BYTES_MAX)?, path)
 }
 
-/// The file as bytes.
-fn to_bytes<G: Gene>(checkpoint: &Checkpoint<G>) -> Vec<u8> {
+/// A text, looked at where it lies before it is copied: bincode would ask for the memory of a String on the word
+/// of the file alone.
+fn text<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    <&str>::deserialize(from).map(str::to_owned)
+}
+
+/// What [`save`] writes.
+pub fn to_bytes<G: Gene>(checkpoint: &Checkpoint<G>) -> Vec<u8> {
     let body = encode(checkpoint);
     let mut bytes = Vec::with_capacity(body.len() + 28);
     bytes.extend(MAGIC);
@@ -55,7 +62,11 @@ fn to_bytes<G: Gene>(checkpoint: &Checkpoint<G>) -> Vec<u8> {
     bytes
 }
 
-fn from_bytes<G: Gene>(bytes: &[u8], path: &Path) -> Result<Checkpoint<G>, StoreError> {
+/// What [`load`] reads from bytes that are said to be the file at `path`.
+///
+/// # Errors
+/// If they are of an unknown version, or not to the last bit what was saved.
+pub fn from_bytes<G: Gene>(bytes: &[u8], path: &Path) -> Result<Checkpoint<G>, StoreError> {
     let damaged = |reason: &str| StoreError::damaged(path, reason);
     let rest = bytes.strip_prefix(&MAGIC).ok_or_else(|| damaged("it is no checkpoint"))?;
     let (version, rest) = rest.split_first_chunk().ok_or_else(|| damaged("it is cut off"))?;

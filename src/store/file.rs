@@ -3,26 +3,29 @@
 //! A run directory can come from anywhere: what is read is bounded, a pipe is not waited for, and nothing is
 //! written through a link.
 
-use super::{BYTES_MAX, StoreError};
+use super::StoreError;
 use rustix::fs::OFlags;
 use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom};
 use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
 
-/// Reads a whole file of at most 1 GiB.
+/// Reads a whole file of at most so many bytes.
 ///
 /// # Errors
 /// If it cannot be read, is no regular file or is larger.
-pub fn read(path: &Path) -> Result<Vec<u8>, StoreError> {
+pub fn read(path: &Path, bytes_max: usize) -> Result<Vec<u8>, StoreError> {
+    let too_large = || StoreError::damaged(path, format!("it is larger than {bytes_max} bytes"));
     let file = open_to_read(path)?;
-    let mut bytes = Vec::new();
+    let length = file.metadata().map_err(StoreError::io("read", path))?.len();
+    let length = usize::try_from(length).ok().filter(|&length| length <= bytes_max);
+    let mut bytes = Vec::with_capacity(length.ok_or_else(too_large)?);
     // One byte more than may be there, lest a file that grows meanwhile seems to be whole.
-    file.take(BYTES_MAX as u64 + 1)
+    file.take(bytes_max as u64 + 1)
         .read_to_end(&mut bytes)
         .map_err(StoreError::io("read", path))?;
-    if bytes.len() > BYTES_MAX {
-        return Err(StoreError::damaged(path, "it is too large"));
+    if bytes.len() > bytes_max {
+        return Err(too_large());
     }
     Ok(bytes)
 }
@@ -31,8 +34,9 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StoreError> {
 ///
 /// # Errors
 /// Also if it is not UTF-8.
-pub fn read_text(path: &Path) -> Result<String, StoreError> {
-    String::from_utf8(read(path)?).map_err(|_| StoreError::damaged(path, "it is not text"))
+pub fn read_text(path: &Path, bytes_max: usize) -> Result<String, StoreError> {
+    String::from_utf8(read(path, bytes_max)?)
+        .map_err(|_| StoreError::damaged(path, "it is not text"))
 }
 
 /// Opens a file to read it.
@@ -69,6 +73,16 @@ pub fn open_to_append(path: &Path) -> Result<File, StoreError> {
     Ok(file)
 }
 
+/// Opens a folder.
+///
+/// # Errors
+/// If there is none, or it is something else.
+pub fn open_folder(path: &Path) -> Result<File, StoreError> {
+    let mut options = OpenOptions::new();
+    options.read(true).custom_flags(OFlags::DIRECTORY.bits().cast_signed());
+    options.open(path).map_err(StoreError::io("open", path))
+}
+
 fn regular(file: File, path: &Path) -> Result<File, StoreError> {
     let status = file.metadata().map_err(StoreError::io("read", path))?;
     if status.is_file() {
@@ -95,7 +109,11 @@ mod tests {
             assert!(open_to_read(&at(name)).is_err(), "{name}");
             assert!(open_to_write(&at(name)).is_err(), "{name}");
         }
-        assert!(read(Path::new("/dev/zero")).is_err());
-        assert_eq!(read_text(&at("outside")).expect("it is text"), "precious");
+        for name in ["pipe", "outside"] {
+            assert!(open_folder(&at(name)).is_err(), "{name}");
+        }
+        assert!(read(Path::new("/dev/zero"), 8).is_err());
+        assert_eq!(read_text(&at("outside"), 8).expect("it is text"), "precious");
+        assert!(read_text(&at("outside"), 7).is_err());
     }
 }

@@ -4,7 +4,7 @@
 //! writes files that are there whole or not at all; [`record_log`] appends records, each with its checksum, and
 //! is what an island's [`journal`] and its logs of champions and generations are made of; [`checkpoint`] is an
 //! island's whole state, of which [`checkpoints`] keeps the newest two. A [`Logbook`] is all of it together, and
-//! what an island begins with after its death.
+//! what an island begins with after its death; it believes no state that could not be one of the run.
 //!
 //! Architecture invariant: this alone imports bincode. What a file says is believed only after its checksum.
 
@@ -73,11 +73,21 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// What is wrong, for a sentence that names the file itself.
+    pub fn reason(&self) -> String {
+        match self {
+            StoreError::Io { source, .. } => source.to_string(),
+            StoreError::Damaged { reason, .. } => reason.clone(),
+            other => other.to_string(),
+        }
+    }
+
     fn io<'a>(action: &'static str, path: &'a Path) -> impl FnOnce(std::io::Error) -> Self + 'a {
         move |source| StoreError::Io { action, path: path.to_owned(), source }
     }
 
-    fn damaged(path: &Path, reason: impl Into<String>) -> Self {
+    /// A file that is not what it should be.
+    pub fn damaged(path: &Path, reason: impl Into<String>) -> Self {
         StoreError::Damaged { path: path.to_owned(), reason: reason.into() }
     }
 }

@@ -122,10 +122,16 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
             }
             Err(error) => return Err(error),
         };
-        let mut records = Vec::new();
-        let scan = scan(&file, |body| records.push(decode(body)));
+        let mut records = Ok(Vec::new());
+        let scan = scan(&file, |body| {
+            if let Ok(found) = &mut records {
+                match decode(body) {
+                    Ok(record) => found.push(record),
+                    Err(reason) => records = Err(reason),
+                }
+            }
+        });
         let scan = scan.map_err(StoreError::io("read", path))?;
-        let records = records.into_iter().collect::<Result<_, String>>();
         let records = records.map_err(|reason| StoreError::damaged(path, reason))?;
         Ok(Contents { records, torn_bytes: scan.torn_bytes })
     }

@@ -1,6 +1,6 @@
 //! Where everything of a run lies, and whose it is.
 
-use super::{StoreError, atomic};
+use super::{StoreError, atomic, file};
 use std::fs::{DirBuilder, File, TryLockError};
 use std::io::Write;
 use std::os::unix::fs::DirBuilderExt;
@@ -59,7 +59,7 @@ impl RunDir {
     /// # Errors
     /// If there is no such folder, or another launcher has it.
     pub fn claim(&self) -> Result<Claim, StoreError> {
-        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
+        let folder = file::open_folder(&self.0)?;
         match folder.try_lock() {
             Ok(()) => Ok(Claim { dir: self.clone(), _folder: folder }),
             Err(TryLockError::WouldBlock) => Err(StoreError::UnderWay { path: self.0.clone() }),
@@ -72,7 +72,7 @@ impl RunDir {
     /// # Errors
     /// If there is no such folder.
     pub fn is_under_way(&self) -> Result<bool, StoreError> {
-        let folder = File::open(&self.0).map_err(StoreError::io("open", &self.0))?;
+        let folder = file::open_folder(&self.0)?;
         Ok(matches!(folder.try_lock_shared(), Err(TryLockError::WouldBlock)))
     }
 
@@ -175,6 +175,10 @@ impl Claim {
     }
 
     fn sweep(&self) {
+        // What a link leads to is somebody else's.
+        if is_link(&self.dir.partial()) {
+            return;
+        }
         let leftovers = std::fs::read_dir(self.dir.partial()).into_iter().flatten().flatten();
         for leftover in leftovers {
             // What cannot be removed is in nobody's way.
@@ -199,11 +203,15 @@ fn private() -> DirBuilder {
 /// Makes a folder of a run; it may exist, but not as a link.
 fn make(folder: &Path) -> Result<(), StoreError> {
     private().create(folder).map_err(StoreError::io("make the folder", folder))?;
-    let status = std::fs::symlink_metadata(folder).map_err(StoreError::io("open", folder))?;
-    match status.is_dir() {
-        true => Ok(()),
-        false => {
-            Err(StoreError::damaged(folder, "it is a link, and may lead out of the run's folder"))
-        }
+    if is_link(folder) {
+        return Err(StoreError::damaged(
+            folder,
+            "it is a link, and may lead out of the run's folder",
+        ));
     }
+    Ok(())
+}
+
+fn is_link(path: &Path) -> bool {
+    std::fs::symlink_metadata(path).is_ok_and(|status| status.is_symlink())
 }

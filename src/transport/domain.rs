@@ -1,31 +1,25 @@
 //! Where one run's shared memory lives, apart from every other run's.
 
 use super::TransportError;
+use super::claim::Claim;
+use super::remains::{self, Remains};
+use super::shared_memory::{SHARED_MEMORY, SharedMemory};
 use iceoryx2::prelude::{Config, FileName, LogLevel, Path, SemanticString, set_log_level};
 use std::fmt;
-use std::fs::{self, DirBuilder, File, Metadata, Permissions};
-use std::io;
+use std::fs::{self, DirBuilder, Permissions};
 use std::os::unix::fs::{DirBuilderExt, PermissionsExt};
 use std::path::{Path as FsPath, PathBuf};
 use std::str::FromStr;
-use std::time::{Duration, SystemTime};
-
-const SHARED_MEMORY: &str = "/dev/shm";
 
 /// Sockets lie below the root, and the whole path of one must fit in 108 bytes; iceoryx2 itself needs 44
 /// of them for its names. Longer ones fail or panic inside of it.
 const ROOT_AND_PREFIX_MAX: usize = 64;
 
-/// An object that a process was killed over while it was making it. A living one needs microseconds.
-const STILLBORN_AFTER: Duration = Duration::from_millis(5);
-
-/// The file in a domain's folder that its launcher holds a lock on while it lives.
-const OWNER: &str = "launcher";
-/// A launcher needs microseconds to lock it.
-const ABANDONED_AFTER: Duration = Duration::from_secs(60);
-
-/// What folders and prefixes begin with.
+/// What the names of folders, objects and claims begin with.
 const NAME: &str = "isl";
+/// What follows the prefix in the name of a claim. No object of iceoryx2's is called so: theirs have an
+/// ending.
+const CLAIM: &str = "launcher";
 
 /// The place of one run: a prefix for all its objects in shared memory, and a folder for its files.
 ///
@@ -40,7 +34,7 @@ pub struct Domain {
 impl Domain {
     /// The domain of a run. The id must be one that no other run on this machine has.
     pub fn new(run_id: u64) -> Self {
-        let folder = format!("{NAME}{run_id:016x}");
+        let folder = folder_name(run_id);
         let root = std::env::temp_dir().join(&folder);
         // A long TMPDIR is common (macOS, build systems), and /tmp always works.
         let root = if fits(run_id, &root) { root } else { FsPath::new("/tmp").join(folder) };
@@ -62,40 +56,31 @@ impl Domain {
         prefix(self.run_id)
     }
 
-    /// Makes the root folder, for this user only, and claims it for as long as the file that it returns is
-    /// open.
-    pub(super) fn create(&self) -> Result<File, TransportError> {
-        let claim = || {
+    /// What runs of this user have left behind on this machine whose launcher was killed, whatever their
+    /// folder for temporary files was. Removes nothing.
+    ///
+    /// Objects without a claim are none of it: claims are made before them and removed after them, so that
+    /// they can only come from a claim that was removed by hand. Nobody can tell then whether the run lives;
+    /// the same hand has to remove them.
+    pub fn abandoned() -> Vec<Remains> {
+        remains::abandoned(&SharedMemory::own())
+    }
+
+    /// Claims the domain and makes its folder, for this user only.
+    pub(super) fn create(&self) -> Result<Claim, TransportError> {
+        let claim = Claim::make(&SharedMemory::own(), self.run_id, &self.root)?;
+        let made = || {
             DirBuilder::new().mode(0o700).create(&self.root)?;
             // Once more, since the mode above is subject to the umask.
-            fs::set_permissions(&self.root, Permissions::from_mode(0o700))?;
-            let owner = File::create_new(self.root.join(OWNER))?;
-            owner.try_lock()?;
-            Ok(owner)
+            fs::set_permissions(&self.root, Permissions::from_mode(0o700))
         };
-        claim().map_err(|source| TransportError::folder(&self.root, source))
-    }
-
-    /// Removes all domains of this user whose launcher was killed, and returns how many there were: a killed
-    /// launcher leaves its shared memory behind until the machine is started again.
-    pub fn remove_abandoned() -> usize {
-        let here = Self::new(0);
-        let Some(Ok(folders)) = here.root.parent().map(fs::read_dir) else { return 0 };
-        let domains = folders.filter_map(|entry| {
-            let name = entry.ok()?.file_name();
-            let id = name.to_str()?.strip_prefix(NAME).filter(|id| id.len() == 16)?;
-            id.parse::<Self>().ok()
-        });
-        domains.filter(Self::is_abandoned).filter(|domain| domain.remove().is_ok()).count()
-    }
-
-    // Nobody holds the claim, and not because it is being made just now.
-    fn is_abandoned(&self) -> bool {
-        let owner = File::open(self.root.join(OWNER));
-        owner.is_ok_and(|owner| {
-            let age = owner.metadata().ok().and_then(|status| age(&status));
-            age.is_some_and(|age| age > ABANDONED_AFTER) && owner.try_lock().is_ok()
-        })
+        match made() {
+            Ok(()) => Ok(claim),
+            Err(source) => {
+                claim.withdraw();
+                Err(TransportError::folder(&self.root, source))
+            }
+        }
     }
 
     /// The configuration of iceoryx2 that keeps to this domain.
@@ -129,38 +114,6 @@ impl Domain {
         }
         Ok(())
     }
-
-    /// Removes what processes killed while they were making it have left: objects of no size, on which the
-    /// cleaning up of a dead process would wait for ever. Returns how many there were.
-    pub fn remove_stillborn(&self) -> usize {
-        let stillborn = |path: &PathBuf| {
-            let Ok(status) = fs::metadata(path) else { return false };
-            status.len() == 0 && age(&status).is_some_and(|age| age > STILLBORN_AFTER)
-        };
-        let objects = self.objects().into_iter().filter(stillborn);
-        objects.filter(|path| fs::remove_file(path).is_ok()).count()
-    }
-
-    /// Removes all that the run has in shared memory and its folder. For the launcher, when all others have
-    /// ended: who still uses the domain then loses it.
-    pub fn remove(&self) -> Result<(), TransportError> {
-        for path in self.objects() {
-            unless_gone(fs::remove_file(&path))
-                .map_err(|source| TransportError::folder(&path, source))?;
-        }
-        unless_gone(fs::remove_dir_all(&self.root))
-            .map_err(|source| TransportError::folder(&self.root, source))
-    }
-
-    fn objects(&self) -> Vec<PathBuf> {
-        let prefix = self.prefix();
-        let Ok(entries) = fs::read_dir(SHARED_MEMORY) else { return Vec::new() };
-        let ours = |path: &PathBuf| {
-            let name = path.file_name().and_then(|name| name.to_str());
-            name.is_some_and(|name| name.starts_with(&prefix))
-        };
-        entries.filter_map(Result::ok).map(|entry| entry.path()).filter(ours).collect()
-    }
 }
 
 impl fmt::Display for Domain {
@@ -178,17 +131,27 @@ impl FromStr for Domain {
     }
 }
 
-// None for what comes from the future, since a clock was set back.
-#[expect(
-    clippy::disallowed_methods,
-    reason = "how old a file is decides what is removed, not a result"
-)]
-fn age(status: &Metadata) -> Option<Duration> {
-    SystemTime::now().duration_since(status.modified().ok()?).ok()
+/// What the names of all of a run's objects begin with.
+pub fn prefix(run_id: u64) -> String {
+    format!("{NAME}{run_id:016x}_")
 }
 
-fn prefix(run_id: u64) -> String {
-    format!("{NAME}{run_id:016x}_")
+/// What a run's folder is called.
+pub fn folder_name(run_id: u64) -> String {
+    format!("{NAME}{run_id:016x}")
+}
+
+/// What a run's claim is called.
+pub fn claim_name(run_id: u64) -> String {
+    prefix(run_id) + CLAIM
+}
+
+/// The run whose claim is called so, if it is the name of one.
+pub fn run_id_of_claim(name: &str) -> Option<u64> {
+    let id = name.strip_prefix(NAME)?.split_once('_')?.0;
+    let run_id = u64::from_str_radix(id, 16).ok()?;
+    // Other spellings of the number are not ours.
+    (name == claim_name(run_id)).then_some(run_id)
 }
 
 fn fits(run_id: u64, root: &FsPath) -> bool {
@@ -198,15 +161,7 @@ fn fits(run_id: u64, root: &FsPath) -> bool {
     text.is_some_and(|text| text.len() + prefix(run_id).len() <= ROOT_AND_PREFIX_MAX)
 }
 
-fn unless_gone(result: io::Result<()>) -> io::Result<()> {
-    match result {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
-#[expect(clippy::disallowed_methods, reason = "files of tests have ages too")]
 mod tests {
     use super::*;
 
@@ -236,47 +191,19 @@ mod tests {
     }
 
     #[test]
-    fn only_old_empty_objects_of_the_own_run_are_stillborn() {
-        let domain = Domain::new(0x5111_b007_0000_0000 | u64::from(std::process::id()));
-        let object = |name: &str| FsPath::new(SHARED_MEMORY).join(domain.prefix() + name);
-        let stranger = FsPath::new(SHARED_MEMORY).join(format!("{}x", prefix(!domain.run_id)));
-        let now = SystemTime::now();
-        let write = |path: &FsPath, bytes: &[u8], modified| {
-            fs::write(path, bytes).unwrap();
-            File::open(path).unwrap().set_modified(modified).unwrap();
-        };
-        write(&object("empty"), &[], now - 2 * STILLBORN_AFTER);
-        write(&object("full"), &[1], now - 2 * STILLBORN_AFTER);
-        write(&stranger, &[], now - 2 * STILLBORN_AFTER);
-        write(&object("young"), &[], now + Duration::from_secs(60));
-        assert_eq!(domain.remove_stillborn(), 1);
-        assert!(!object("empty").exists() && object("young").exists() && object("full").exists());
-        domain.remove().unwrap();
-        assert!(!object("full").exists() && stranger.exists());
-        fs::remove_file(stranger).unwrap();
-    }
-
-    #[test]
-    fn what_a_killed_launcher_left_is_removed_and_nothing_else() {
-        let domain = |test: u64| Domain::new(test << 40 | u64::from(std::process::id()));
-        let [dead, alive] = [domain(0xdead), domain(0xa11e)];
-        let claims = [&dead, &alive].map(|domain| domain.create().unwrap());
-        let object = FsPath::new(SHARED_MEMORY).join(dead.prefix() + "object");
-        fs::write(&object, [1]).unwrap();
-        for claim in &claims {
-            claim.set_modified(SystemTime::now() - 2 * ABANDONED_AFTER).unwrap();
+    fn a_claim_is_known_by_its_name_and_nothing_else_is() {
+        assert_eq!(run_id_of_claim(&claim_name(0x2a)), Some(0x2a));
+        assert_eq!(run_id_of_claim(&claim_name(u64::MAX)), Some(u64::MAX));
+        for name in [
+            "isl2a_launcher",
+            "isl+00000000000002a_launcher",
+            "isl000000000000002A_launcher",
+            "isl000000000000002a_launcher2",
+            "isl000000000000002a_x.connection",
+            "isl000000000000002a",
+            "isé_launcher",
+        ] {
+            assert_eq!(run_id_of_claim(name), None, "{name}");
         }
-        let [claim, _alive] = claims;
-        drop(claim);
-        // Another launcher may be at it: then it is the one that finishes.
-        for _ in 0..1_000 {
-            Domain::remove_abandoned();
-            if !dead.root().exists() {
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        assert!(!dead.root().exists() && !object.exists() && alive.root().exists());
-        alive.remove().unwrap();
     }
 }

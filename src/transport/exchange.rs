@@ -22,6 +22,7 @@ pub const TICK: Duration = Duration::from_millis(5);
 pub struct Exchange<G: Gene> {
     island: u32,
     limits: Limits,
+    history: u32,
     out_neighbours: Vec<u32>,
     outboxes: Outlet<G, BatchHeader>,
     reports: Outlet<G, ReportHeader>,
@@ -69,6 +70,7 @@ impl<G: Gene> Exchange<G> {
         Ok(Self {
             island,
             limits: plan.limits,
+            history: plan.history as u32,
             outboxes: ports::outbox_outlet(&plan, &node, island)?,
             reports: ports::report_outlet(&plan, &node)?,
             requests: ports::request_inlet(&plan, &node, island)?,
@@ -80,9 +82,10 @@ impl<G: Gene> Exchange<G> {
         })
     }
 
-    /// How many of its last outboxes an island that was born again sends once more.
+    /// How many of its last outboxes an island publishes again when it is born again: what its neighbours can
+    /// still miss, if they ask for nothing.
     pub fn history(&self) -> u32 {
-        8
+        self.history
     }
 
     /// Sends an outbox of this island to all its out-neighbours, and returns how many of them had room for
@@ -155,7 +158,7 @@ impl<G: Gene> Exchange<G> {
         Ok(woken)
     }
 
-    /// Tells launcher and monitor about a generation, and about a new champion if there is one. It keeps only
+    /// Tells the launcher about a generation, and about a new champion if there is one. It keeps only
     /// the newest for those that do not look.
     pub fn report(
         &self,

@@ -1,16 +1,14 @@
 //! The launcher's end: the services of a run, from before its first island until after its last.
 
+use super::burial;
+use super::claim::Claim;
 use super::services::{
     self, Node, OutboxService, Plan, ReportService, RequestService, WakeUpService,
 };
+use super::shared_memory::SharedMemory;
 use super::{Domain, TransportError};
 use crate::archipelago::Archipelago;
 use crate::evolution::Gene;
-use std::fs::File;
-use std::time::Duration;
-
-/// How long to wait for someone else who cleans up. There is nobody else: this is for the unforeseen.
-const CLEANUP_MAX: Duration = Duration::from_millis(500);
 
 /// Holds all services of a run open, so that islands can come, die and come again.
 ///
@@ -20,8 +18,8 @@ const CLEANUP_MAX: Duration = Duration::from_millis(500);
 pub struct Harbour<G: Gene> {
     services: Option<Services<G>>,
     domain: Domain,
-    // Held open: it tells other launchers that this one lives.
-    _claim: File,
+    // It tells other launchers that this one lives.
+    claim: Option<Claim>,
 }
 
 #[derive(Debug)]
@@ -38,11 +36,14 @@ impl<G: Gene> Harbour<G> {
     /// killed launchers have left is removed first.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
-        Domain::remove_abandoned();
+        for remains in Domain::abandoned() {
+            // Another launcher may be at it, and what cannot be removed is in nobody's way.
+            let _ = remains.remove();
+        }
         domain.check_space(plan.bytes::<G>())?;
         let claim = domain.create()?;
         // From here on dropping it removes what was made, also where the rest of the making fails.
-        let mut harbour = Self { services: None, domain: domain.clone(), _claim: claim };
+        let mut harbour = Self { services: None, domain: domain.clone(), claim: Some(claim) };
         harbour.services = Some(Services::create(domain, &plan, archipelago.islands)?);
         Ok(harbour)
     }
@@ -52,16 +53,15 @@ impl<G: Gene> Harbour<G> {
         Ok(Plan::new(domain, archipelago)?.bytes::<G>())
     }
 
-    /// Gives free what dead islands held, and returns how many there were. Call it after the death of a
-    /// child was waited for and before its successor is started. Nobody but the launcher may.
+    /// Gives free what dead islands held, at whatever instant they died, and returns how many there were. Call
+    /// it after the death of a child was waited for and before its successor is started. Nobody but the
+    /// launcher may.
+    ///
+    /// # Errors
+    /// If it could not be done, though it was tried several times.
     pub fn cleanup_dead_nodes(&self) -> Result<u64, TransportError> {
-        let Some(services) = &self.services else { return Ok(0) };
-        self.domain.remove_stillborn();
-        let state = services.node.blocking_cleanup_dead_nodes(CLEANUP_MAX);
-        match state.failed_cleanups {
-            0 => Ok(state.cleanups),
-            dead => Err(TransportError::Cleanup { dead }),
-        }
+        let services = self.services.as_ref();
+        services.map_or(Ok(0), |services| burial::bury_dead(&self.domain, &services.node))
     }
 
     /// Ends the services and removes the domain. Dropping does the same and says nothing.
@@ -71,7 +71,7 @@ impl<G: Gene> Harbour<G> {
 
     fn remove(&mut self) -> Result<(), TransportError> {
         self.services = None;
-        self.domain.remove()
+        self.claim.take().map_or(Ok(()), |claim| claim.remove())
     }
 }
 
@@ -85,6 +85,10 @@ impl<G: Gene> Drop for Harbour<G> {
 impl<G: Gene> Services<G> {
     fn create(domain: &Domain, plan: &Plan, islands: u32) -> Result<Self, TransportError> {
         let node = services::join(domain)?;
+        // The counter of processes, which the first of them makes, would be open to every user.
+        SharedMemory::own()
+            .make_private(domain.run_id())
+            .map_err(|(path, source)| TransportError::Folder { path, source })?;
         let outboxes = |island| {
             let service = plan.outboxes::<G>(&node, island)?.create();
             service.map_err(|e| TransportError::setup("outboxes", e))

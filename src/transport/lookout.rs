@@ -1,4 +1,4 @@
-//! The end of those who only look: the launcher's progress bars and the monitor.
+//! The end of those who only look: the launcher, for its progress bars, or somebody who watches by hand.
 
 use super::limits::{Limits, Sighting};
 use super::ports::{self, Inlet};

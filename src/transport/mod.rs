@@ -9,7 +9,7 @@
 //! | `outboxes/<i>` | island i | its out-neighbours | not delivered to whom it does not fit |
 //! | `requests/<i>` | island i's out-neighbours | island i | the oldest is forgotten |
 //! | `wakeup/<i>` | island i's neighbours | island i | one is as good as many |
-//! | `reports` | all islands | launcher and monitor | the oldest is forgotten |
+//! | `reports` | all islands | launcher | the oldest is forgotten |
 //!
 //! A [`Domain`] keeps a run apart from all others. The launcher's [`Harbour`] creates the services, holds
 //! them open while islands come and go, cleans up after the dead and leaves nothing behind; what a killed
@@ -38,13 +38,17 @@
 //! losses and repetitions change when something arrives, never what. Nothing received is believed before it
 //! was checked.
 
+mod burial;
+mod claim;
 mod domain;
 mod exchange;
 mod harbour;
 mod limits;
 mod lookout;
 mod ports;
+mod remains;
 mod services;
+mod shared_memory;
 #[cfg(test)]
 #[expect(clippy::disallowed_methods, reason = "a test may give up after a while")]
 mod tests;
@@ -55,6 +59,7 @@ pub use exchange::{Exchange, Received, TICK};
 pub use harbour::Harbour;
 pub use limits::{Limits, Rejection, Sighting};
 pub use lookout::Lookout;
+pub use remains::{Remains, Removal};
 
 use std::fmt::Display;
 use std::io;

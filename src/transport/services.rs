@@ -34,8 +34,8 @@ const REQUESTS_KEPT: usize = 16;
 const REPORTS_KEPT: usize = 64;
 /// What a late reader of reports sees at once of every island.
 const REPORTS_HISTORY: usize = 8;
-/// The launcher's progress and the monitor, and their successors.
-const REPORT_READERS: usize = 4;
+/// The launcher, and one who watches by hand.
+const REPORT_READERS: usize = 2;
 
 /// How much of everything a run needs.
 #[derive(Debug, Clone)]
@@ -166,7 +166,7 @@ impl Plan {
         2 * self.history
     }
 
-    // Every island, the launcher's harbour and lookout, monitors, and those dead but not cleaned up.
+    // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned up.
     fn nodes(&self) -> usize {
         self.archipelago.islands as usize + 6
     }

@@ -1,8 +1,10 @@
 //! The run as a film: champions that walk, curves that climb, in the Rerun viewer.
 //!
-//! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. Read in this
-//! order: [`film`] says when a champion is on screen, [`clip`] turns its trajectory into columns of poses,
-//! [`scenery`] is what never changes, [`blueprint`] arranges it all, [`recorder`] puts it together, and
+//! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. It is made as a
+//! [`Draft`] and put in its place when it has everything that the one there has: a recording can be made anew at
+//! any time, and the old one is there until then. Read in this order: [`film`] says when a champion is on
+//! screen, so that no other need be simulated, [`clip`] turns its trajectory into columns of poses, [`scenery`]
+//! is what never changes, [`blueprint`] arranges it all, [`live`] serves it, [`recorder`] puts it together, and
 //! [`palette`] holds every colour.
 //!
 //! What a recording holds, by entity:
@@ -32,8 +34,11 @@
 pub mod blueprint;
 pub mod card;
 pub mod clip;
+pub mod draft;
 mod extent;
+mod file;
 pub mod film;
+pub mod live;
 pub mod palette;
 pub mod recorder;
 pub mod scenery;
@@ -44,11 +49,16 @@ mod tests;
 
 pub use card::RunCard;
 pub use clip::Clip;
+pub use draft::Draft;
 pub use film::Pace;
-pub use recorder::{Live, Recorder};
+pub use live::Live;
+pub use recorder::Recorder;
 
+use std::net::IpAddr;
 use std::path::PathBuf;
 
+/// The name of all runs' blueprints: a viewer keeps the user's own arrangement under it.
+const APPLICATION: &str = "islands";
 /// The film clock, in seconds.
 const PLAYBACK: &str = "playback";
 /// The generation that something belongs to.
@@ -57,17 +67,27 @@ const GENERATION: &str = "generation";
 /// Why a run could not be recorded.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewError {
-    /// The recording could not be opened.
+    /// The recording could not be made, or not be put in its place.
     #[error("cannot write the recording {}: {source}", path.display())]
     Create {
         /// The file.
         path: PathBuf,
         /// What the file system said.
-        source: Box<rerun::sink::FileSinkError>,
+        source: std::io::Error,
+    },
+    /// The live view cannot be served on an address.
+    #[error("cannot serve the live view on {address}: {source}")]
+    Serve {
+        /// The address.
+        address: IpAddr,
+        /// What the system said.
+        source: std::io::Error,
     },
     /// Every port that was tried is in use.
-    #[error("no port from {first} to {last} is free to serve the live view on")]
+    #[error("no port from {first} to {last} of {address} is free to serve the live view on")]
     NoFreePort {
+        /// The address.
+        address: IpAddr,
         /// The first port that was tried.
         first: u16,
         /// The last one.

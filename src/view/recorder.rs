@@ -2,69 +2,40 @@
 
 use super::blueprint::{self, Audience};
 use super::card::RunCard;
+use super::file::RrdFile;
 use super::film::Film;
-use super::{Clip, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
+use super::live::{self, Live, Server};
+use super::{APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
 use crate::archipelago::island::Report;
 use crate::evolution::Spread;
 use crate::evolution::population::SPREAD_BARS;
-use rerun::grpc_server::GrpcServerSink;
-use rerun::sink::{FileSink, LogSink};
-use rerun::{
-    ApplicationId, BarChart, MemoryLimit, RecordingStream, RecordingStreamBuilder, Scalars,
-    ServerOptions, TextLog,
-};
-use std::net::{Ipv4Addr, TcpListener};
-use std::os::linux::net::SocketAddrExt;
-use std::os::unix::net::{SocketAddr, UnixDatagram};
-use std::path::{Path, PathBuf};
-
-/// How a recording is served while it is made, on this machine only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Live {
-    /// The port that is tried first.
-    pub port: u16,
-    /// How much is kept for those who come late; the oldest is dropped first.
-    pub memory_limit_bytes: u64,
-}
-
-impl Default for Live {
-    /// Rerun's own port, so that `rerun --connect` finds it, and 1 GiB.
-    fn default() -> Self {
-        Self { port: rerun::DEFAULT_SERVER_PORT, memory_limit_bytes: 1 << 30 }
-    }
-}
+use rerun::sink::LogSink;
+use rerun::{ApplicationId, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, TextLog};
 
 /// A bar of a histogram is at least so wide, in the unit of fitness: equal scores need a bar too.
 const BAR_WIDTH_MIN: f64 = 1e-6;
-/// How many ports are tried.
-const PORTS: u16 = 32;
-/// The name of all runs' blueprints: a viewer keeps the user's own arrangement under it.
-const APPLICATION: &str = "islands";
 
 /// Writes a run's recording.
 pub struct Recorder {
     stream: RecordingStream,
     film: Film,
-    path: PathBuf,
-    server: Option<Served>,
-}
-
-/// Where a recording is served.
-struct Served {
-    address: String,
-    // Held open: it keeps the other runs of this machine from the port.
-    _claim: UnixDatagram,
+    server: Option<Server>,
+    file: RrdFile,
+    draft: Draft,
 }
 
 impl Recorder {
-    /// Opens a recording at `path`, overwriting what is there, and serves it live if wanted.
-    pub fn create(path: &Path, live: Option<Live>, card: RunCard) -> Result<Self, ViewError> {
+    /// Begins a recording, and serves it live if wanted.
+    ///
+    /// # Errors
+    /// If the draft cannot be written, or the recording not be served where it was wanted.
+    pub fn create(draft: Draft, live: Option<Live>, card: RunCard) -> Result<Self, ViewError> {
         let application = ApplicationId::from(APPLICATION);
-        let file = FileSink::new(path)
-            .map_err(|source| ViewError::Create { path: path.to_owned(), source: source.into() })?;
-        let (sink, server) = live.map(serve).transpose()?.unzip();
+        let file = RrdFile::new(draft.file()?).map_err(|source| draft.failed(source))?;
+        let (sink, server) = live.map(live::serve).transpose()?.unzip();
 
-        let mut sinks: Vec<(Audience, Box<dyn LogSink>)> = vec![(Audience::File, Box::new(file))];
+        let mut sinks: Vec<(Audience, Box<dyn LogSink>)> =
+            vec![(Audience::File, Box::new(file.clone()))];
         sinks.extend(sink.map(|sink| (Audience::Live, Box::new(sink) as Box<dyn LogSink>)));
         // Rerun's switch RERUN=off turns everything off, and it cannot build a blueprint then.
         let on = rerun::decide_logging_enabled(true);
@@ -79,12 +50,18 @@ impl Recorder {
         stream.set_log_tick_enabled(false);
         scenery::build(&stream, &card)?;
         let film = Film::new(card.islands, card.pace);
-        Ok(Self { stream, film, path: path.to_owned(), server })
+        Ok(Self { stream, film, server, file, draft })
     }
 
     /// What to give to a viewer to watch live: `rerun ADDRESS`.
     pub fn address(&self) -> Option<String> {
         self.server.as_ref().map(|server| server.address.clone())
+    }
+
+    /// Whether the champion that an island has in this generation will be seen: no other needs to be simulated
+    /// again before the end.
+    pub fn opens_slot(&self, generation: u32) -> bool {
+        self.film.pace().opens_slot(generation)
     }
 
     /// One generation of one island: its figures, and the champion if it is time to show it. Report each
@@ -128,20 +105,40 @@ impl Recorder {
     }
 
     /// Waits until everything is written. Only here a full disk is noticed: call it now and then.
+    ///
+    /// # Errors
+    /// If something could not be written.
     pub fn flush(&self) -> Result<(), ViewError> {
-        self.stream
-            .flush_blocking()
-            .map_err(|e| ViewError::Flush { path: self.path.clone(), message: e.to_string() })
+        self.stream.flush_blocking().map_err(|error| self.cannot_write(error.to_string()))
     }
 
-    /// Shows the champions that came after the last slot had opened, and ends all islands' films at the
-    /// same time. A recorder that is dropped without this leaves a whole file with less in it.
+    /// Puts the recording in its place, if it is not there, and goes on with it there.
+    ///
+    /// # Errors
+    /// If something could not be written; what was in its place is still there.
+    pub fn publish(&mut self) -> Result<(), ViewError> {
+        self.flush()?;
+        self.draft.publish()
+    }
+
+    /// Shows the champions that came after the last slot had opened, ends all islands' films at the same time,
+    /// and puts the recording in its place. A recorder that is dropped without this leaves a whole file with
+    /// less in it if it was published, and none otherwise.
+    ///
+    /// # Errors
+    /// If something could not be written.
     pub fn finish(mut self) -> Result<(), ViewError> {
         self.film.end();
         for island in 0..self.film.islands() {
             self.roll(island)?;
         }
-        self.flush()
+        self.flush()?;
+        self.file.finish().map_err(|message| self.cannot_write(message))?;
+        self.draft.publish()
+    }
+
+    fn cannot_write(&self, message: String) -> ViewError {
+        ViewError::Flush { path: self.draft.path().to_owned(), message }
     }
 
     /// Shows what is due.
@@ -157,31 +154,6 @@ impl Recorder {
         self.stream.set_duration_secs(PLAYBACK, self.film.pace().film_s(generation));
         self.stream.set_time_sequence(GENERATION, generation);
     }
-}
-
-/// A server on the first free port from the wanted one on.
-fn serve(live: Live) -> Result<(GrpcServerSink, Served), ViewError> {
-    let last = live.port.saturating_add(PORTS - 1);
-    let free = |port| Some((port, claim(port)?));
-    let (port, claim) = (live.port..=last)
-        .find_map(free)
-        .ok_or(ViewError::NoFreePort { first: live.port, last })?;
-    let options = ServerOptions {
-        memory_limit: MemoryLimit::from_bytes(live.memory_limit_bytes),
-        ..Default::default()
-    };
-    let address = Ipv4Addr::LOCALHOST.to_string();
-    let sink = GrpcServerSink::new(&address, port, options).expect("an address of this machine");
-    let address = sink.uri().to_string();
-    Ok((sink, Served { address, _claim: claim }))
-}
-
-/// Claims a port that nobody uses. Rerun's server opens it a while later and ends if it is taken by then, so
-/// runs that start at once first agree on who has which: by a name that ends with its process.
-fn claim(port: u16) -> Option<UnixDatagram> {
-    let name = SocketAddr::from_abstract_name(format!("{APPLICATION}-live-{port}")).ok()?;
-    let claim = UnixDatagram::bind_addr(&name).ok()?;
-    TcpListener::bind((Ipv4Addr::LOCALHOST, port)).is_ok().then_some(claim)
 }
 
 fn histogram(island: u32, spread: &Spread) -> BarChart {

@@ -91,7 +91,7 @@ fn figures_stand_at_the_film_time_of_their_generation() {
 fn every_island_has_a_view() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.rrd");
-    Recorder::create(&path, None, card(2)).unwrap().finish().unwrap();
+    recorder(&path, None, card(2)).unwrap().finish().unwrap();
     let mut names = Vec::new();
     let mut activated = false;
     for message in messages(&path) {
@@ -124,7 +124,7 @@ fn a_taken_port_is_passed_over() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
     let live = Live { port, ..Live::default() };
-    let recorder = Recorder::create(&directory.path().join("a.rrd"), Some(live), card(1)).unwrap();
+    let recorder = recorder(&directory.path().join("a.rrd"), Some(live), card(1)).unwrap();
     let address = recorder.address().unwrap();
     assert!(address.starts_with("rerun+http://127.0.0.1:"), "{address}");
     assert!(!address.contains(&format!(":{port}/")), "{address}");
@@ -137,7 +137,7 @@ fn recorders_that_start_at_once_serve_on_different_ports() {
     let recorders: Vec<Recorder> = std::thread::scope(|scope| {
         let create = |i| {
             let path = directory.path().join(format!("{i}.rrd"));
-            Recorder::create(&path, Some(Live::default()), card(1)).unwrap()
+            recorder(&path, Some(Live::default()), card(1)).unwrap()
         };
         let threads: Vec<_> = (0..4).map(|i| scope.spawn(move || create(i))).collect();
         threads.into_iter().map(|thread| thread.join().unwrap()).collect()
@@ -150,18 +150,53 @@ fn recorders_that_start_at_once_serve_on_different_ports() {
 }
 
 #[test]
-fn a_recording_that_cannot_be_opened_is_an_error() {
-    let error = Recorder::create(Path::new("/nowhere/run.rrd"), None, card(1)).err().unwrap();
-    assert!(error.to_string().contains("/nowhere/run.rrd"), "{error}");
+fn a_recording_of_before_stays_whole_until_the_new_one_takes_its_place() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.rrd");
+    let curve = |path: &Path| {
+        let chunks = chunks(path);
+        let points = chunks.iter().filter(|c| c.entity_path().to_string() == "/fitness/best/0");
+        points.filter(|chunk| !chunk.is_static()).map(Chunk::num_rows).sum::<usize>()
+    };
+    let reports = |recorder: &mut Recorder, generations: std::ops::Range<u32>| {
+        generations.for_each(|generation| recorder.report(&report(0, generation)).unwrap());
+    };
+    let mut old = recorder(&path, None, card(1)).unwrap();
+    reports(&mut old, 0..3);
+    old.finish().unwrap();
+    let before = std::fs::read(&path).unwrap();
+
+    let mut new = recorder(&path, None, card(1)).unwrap();
+    reports(&mut new, 0..5);
+    new.flush().unwrap();
+    assert_eq!(std::fs::read(&path).unwrap(), before);
+    new.publish().unwrap();
+    assert_eq!(curve(&path), 5);
+    reports(&mut new, 5..9);
+    new.publish().unwrap();
+    assert_eq!(curve(&path), 9);
+    reports(&mut new, 9..10);
+    new.finish().unwrap();
+    assert_eq!(curve(&path), 10);
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
 }
 
 #[test]
-#[cfg(target_os = "linux")]
-fn a_full_disk_is_reported() {
-    let outcome =
-        Recorder::create(Path::new("/dev/full"), None, card(1)).and_then(Recorder::finish);
-    let error = outcome.unwrap_err().to_string();
-    assert!(error.contains("/dev/full"), "{error}");
+fn a_recorder_that_is_dropped_before_its_recording_was_published_leaves_all_as_it_was() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("run.rrd");
+    std::fs::write(&path, "old").unwrap();
+    recorder(&path, None, card(1)).unwrap().report(&report(0, 0)).unwrap();
+    assert_eq!(std::fs::read(&path).unwrap(), b"old");
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_slot_of_the_film_opens_every_few_generations() {
+    let directory = tempfile::tempdir().unwrap();
+    let recorder = recorder(&directory.path().join("run.rrd"), None, card(1)).unwrap();
+    let opens = (0..=30).filter(|&generation| recorder.opens_slot(generation));
+    assert_eq!(opens.collect::<Vec<_>>(), [0, 10, 20, 30]);
 }
 
 /// Writes a film to look at: `VIEW_DEMO=film.rrd cargo test --release --lib view -- --ignored`.
@@ -171,8 +206,7 @@ fn demo() {
     let path = std::env::var("VIEW_DEMO").expect("VIEW_DEMO names the file to write");
     let islands = std::env::var("VIEW_ISLANDS").map_or(4, |n| n.parse().unwrap());
     let pace = Pace { slot_s: 8.0, generations_per_slot: 10 };
-    let mut recorder =
-        Recorder::create(Path::new(&path), None, RunCard { pace, ..card(islands) }).unwrap();
+    let mut recorder = recorder(Path::new(&path), None, RunCard { pace, ..card(islands) }).unwrap();
     for generation in 0..=30 {
         for island in 0..islands {
             let speed = 0.15 + 0.01 * f64::from(generation) * (1.0 + 0.3 * f64::from(island % 5));
@@ -256,10 +290,19 @@ fn pose(position: Vector3<f64>, rotation: UnitQuaternion<f64>) -> Pose {
 fn record(write: impl FnOnce(&mut Recorder) -> Result<(), ViewError>) -> Vec<Chunk> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.rrd");
-    let mut recorder = Recorder::create(&path, None, card(2)).unwrap();
+    let mut recorder = recorder(&path, None, card(2)).unwrap();
     write(&mut recorder).unwrap();
     recorder.finish().unwrap();
-    messages(&path).iter().flat_map(|message| chunk_of(message, StoreKind::Recording)).collect()
+    chunks(&path)
+}
+
+fn recorder(path: &Path, live: Option<Live>, card: RunCard) -> Result<Recorder, ViewError> {
+    let folder = path.parent().unwrap();
+    Recorder::create(Draft::within(folder, path)?, live, card)
+}
+
+fn chunks(path: &Path) -> Vec<Chunk> {
+    messages(path).iter().flat_map(|message| chunk_of(message, StoreKind::Recording)).collect()
 }
 
 fn messages(path: &Path) -> Vec<LogMsg> {

@@ -3,17 +3,43 @@
 use super::*;
 
 const CHILD: &str = "ISLANDS_TEST_CHILD";
+const CHILD_ISLAND: &str = "ISLANDS_TEST_CHILD_ISLAND";
 
-/// Not a test but a process of the next one, which starts it by this name.
+/// Not a test but a process of others, which start it by this name.
 #[test]
 fn child() {
-    let Ok(run_id) = std::env::var(CHILD) else { return };
-    let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), 0).unwrap();
+    let [Ok(run_id), Ok(island)] = [CHILD, CHILD_ISLAND].map(std::env::var) else { return };
+    let island = island.parse().unwrap();
+    let exchange = Exchange::open(&run_id.parse().unwrap(), &archipelago(2), island).unwrap();
     for epoch in 0.. {
-        exchange.publish(&outbox(0, epoch)).unwrap();
+        exchange.publish(&outbox(island, epoch)).unwrap();
         exchange.receive();
         exchange.wait(TICK).unwrap();
     }
+}
+
+/// Starts a process that is one of two islands and exchanges until it is killed.
+pub fn give_birth(domain: &Domain, island: u32) -> Child {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.args(["transport::tests::lives::child", "--exact"]).stdout(Stdio::null());
+    command.env(CHILD, domain.to_string()).env(CHILD_ISLAND, island.to_string());
+    command.spawn().unwrap()
+}
+
+/// Waits until the first epochs of island 0 have reached island 1. The third needs a neighbour that sees ports
+/// that were opened after its own.
+pub fn hear(exchange: &Exchange<TestGene>) {
+    let deadline = Instant::now() + Duration::from_secs(60);
+    while !epochs(exchange.receive()).contains(&2) {
+        assert!(Instant::now() < deadline, "nothing came");
+        exchange.publish(&outbox(1, 0)).unwrap();
+        exchange.wait(TICK).unwrap();
+    }
+}
+
+pub fn kill(mut child: Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
 
 #[test]
@@ -21,18 +47,9 @@ fn an_island_that_is_killed_can_be_born_again_and_again() {
     let (domain, archipelago, harbour) = launch(14, 2);
     let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
     for life in 0..6 {
-        let mut command = Command::new(std::env::current_exe().unwrap());
-        command.args(["transport::tests::lives::child", "--exact"]).stdout(Stdio::null());
-        let mut child = command.env(CHILD, domain.to_string()).spawn().unwrap();
-        let deadline = Instant::now() + Duration::from_secs(60);
-        // Epoch 2 needs a neighbour that sees ports that were opened after its own.
-        while !epochs(exchange.receive()).contains(&2) {
-            assert!(Instant::now() < deadline, "nothing came in life {life}");
-            exchange.publish(&outbox(1, life)).unwrap();
-            exchange.wait(TICK).unwrap();
-        }
-        child.kill().unwrap();
-        child.wait().unwrap();
+        let child = give_birth(&domain, 0);
+        hear(&exchange);
+        kill(child);
         assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
     }
     drop(exchange);

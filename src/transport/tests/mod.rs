@@ -1,5 +1,7 @@
 //! Real services, each test in a domain of its own.
 
+mod claims;
+mod deaths;
 mod lives;
 
 use super::ports;
@@ -14,7 +16,8 @@ use crate::evolution::{
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::fs;
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
@@ -330,10 +333,25 @@ fn a_harbour_leaves_nothing_behind() {
 }
 
 #[test]
-fn the_folder_is_for_this_user_only() {
+fn folder_and_objects_are_for_this_user_only() {
     use std::os::unix::fs::PermissionsExt;
-    let (domain, _, _harbour) = launch(11, 1);
-    assert_eq!(fs::metadata(domain.root()).unwrap().permissions().mode() & 0o777, 0o700);
+    let (domain, archipelago, _harbour) = launch(11, 2);
+    let exchange = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
+    let exchanges = [0, 1].map(exchange);
+    exchanges[0].wait(Duration::ZERO).unwrap();
+    let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+    assert_eq!(mode(domain.root()), 0o700);
+    let names = remains(&domain).into_iter().filter(|name| !name.starts_with('/'));
+    let modes: Vec<_> = names.map(|name| mode(&Path::new("/dev/shm").join(name))).collect();
+    assert!(modes.len() > 10 && modes.iter().all(|&mode| mode == 0o600), "{modes:?}");
+}
+
+#[test]
+fn an_island_knows_how_much_to_publish_again() {
+    let (domain, archipelago, _harbour) = launch(17, 3);
+    let exchange = Exchange::<TestGene>::open(&domain, &archipelago, 0).unwrap();
+    // Both others may be two epochs ahead; and two more.
+    assert_eq!(exchange.history(), 6);
 }
 
 #[test]

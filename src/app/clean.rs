@@ -1,0 +1,58 @@
+//! `islands clean`: removes what crashed runs left in shared memory and in the folder for temporary files.
+
+use super::Failure;
+use super::cli::CleanArgs;
+use super::console::print;
+use super::table;
+use crate::transport::{Domain, Remains, Removal};
+
+/// Lists what dead launchers of this user left, and removes it. Runs that are under way, and whatever is
+/// another user's, are neither listed nor touched; the runs' own folders are not either: they can be resumed.
+///
+/// # Errors
+/// If something cannot be removed.
+pub fn run(args: &CleanArgs) -> Result<(), Failure> {
+    let remains = Domain::abandoned();
+    if remains.is_empty() {
+        print("nothing is left of any crashed run");
+        return Ok(());
+    }
+    let mut rows = vec![["run", "objects", "kB", "folder", "now"].map(str::to_owned)];
+    let mut stubborn = 0;
+    for remains in remains {
+        let [id, objects, size, folder] = describe(&remains);
+        let what = if args.dry_run {
+            "it would be removed".to_owned()
+        } else {
+            remove(remains, &mut stubborn)
+        };
+        rows.push([id, objects, size, folder, what]);
+    }
+    print(&table::lay_out(&rows));
+    match stubborn {
+        0 => Ok(()),
+        count => Err(Failure::failed(format!("{count} of these could not be removed"))),
+    }
+}
+
+fn describe(remains: &Remains) -> [String; 4] {
+    let folder = remains.folder.as_ref();
+    [
+        Domain::new(remains.run_id).to_string(),
+        remains.objects.to_string(),
+        remains.bytes.div_ceil(1_000).to_string(),
+        folder.map_or_else(|| "none".to_owned(), |folder| folder.display().to_string()),
+    ]
+}
+
+fn remove(remains: Remains, stubborn: &mut usize) -> String {
+    match remains.remove() {
+        Ok(Removal::Done) => "removed".to_owned(),
+        Ok(Removal::Held) => "left alone: it is under way again".to_owned(),
+        Ok(Removal::Gone) => "gone already".to_owned(),
+        Err(error) => {
+            *stubborn += 1;
+            error.to_string()
+        }
+    }
+}

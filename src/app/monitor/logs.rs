@@ -1,0 +1,123 @@
+//! What the islands of a run have written down, read while they write on.
+
+use super::super::console::say;
+use crate::archipelago::Report;
+use crate::creature::Gene;
+use crate::store::{Champion, Entry, RunDir, StoreError, Tail};
+use std::path::PathBuf;
+
+/// A generation of an island.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sighting {
+    /// What it was like.
+    pub report: Report,
+    /// The champion, if it is a new one.
+    pub champion: Option<Champion<Gene>>,
+}
+
+/// The logs of all islands.
+#[derive(Debug)]
+pub struct Logs {
+    islands: Vec<Island>,
+}
+
+impl Logs {
+    /// The logs of a run of so many islands, from their beginning.
+    pub fn of(dir: &RunDir, islands: u32) -> Self {
+        Self { islands: (0..islands).map(|index| Island::of(dir, index)).collect() }
+    }
+
+    /// The next generation of each island that has one to show and is not ahead of another one that has; none
+    /// if nothing is there by now. So the islands' films grow evenly, and those that are behind go first.
+    pub fn next_round(&mut self) -> Vec<Sighting> {
+        self.islands.iter_mut().for_each(Island::look);
+        let generation = |island: &Island| island.next.as_ref().map(|next| next.report.generation);
+        let first = self.islands.iter().filter_map(generation).min();
+        let those = self.islands.iter_mut().filter(|island| generation(island) == first);
+        those.filter_map(Island::take).collect()
+    }
+
+    /// The first island whose generations up to `last` were not all shown, and how many were.
+    pub fn first_short_of(&self, last: u32) -> Option<(u32, u32)> {
+        let found = self.islands.iter().find(|island| island.generation <= last);
+        found.map(|island| (island.index, island.generation))
+    }
+}
+
+/// The logs of an island.
+#[derive(Debug)]
+struct Island {
+    index: u32,
+    /// Where its reports lie.
+    path: PathBuf,
+    reports: Tail<Entry>,
+    champions: Tail<Champion<Gene>>,
+    /// A champion whose generation was not reported yet.
+    coming: Option<Champion<Gene>>,
+    /// What was read and not taken.
+    next: Option<Sighting>,
+    /// The generations that were taken.
+    generation: u32,
+    is_damaged: bool,
+}
+
+impl Island {
+    fn of(dir: &RunDir, index: u32) -> Self {
+        Self {
+            index,
+            path: dir.reports(index),
+            reports: Tail::of(dir.reports(index)),
+            champions: Tail::of(dir.champions(index)),
+            coming: None,
+            next: None,
+            generation: 0,
+            is_damaged: false,
+        }
+    }
+
+    /// Reads the next generation, if it is there. The film goes on without an island whose log makes no sense.
+    fn look(&mut self) {
+        if self.next.is_some() || self.is_damaged {
+            return;
+        }
+        match self.read() {
+            Ok(next) => self.next = next,
+            Err(error) => {
+                self.is_damaged = true;
+                say(&format!(
+                    "warning: {error}; the film shows island {} up to there only",
+                    self.index
+                ));
+            }
+        }
+    }
+
+    fn read(&mut self) -> Result<Option<Sighting>, StoreError> {
+        let Some(Entry { report, .. }) = self.reports.next_record()? else { return Ok(None) };
+        if (report.island, report.generation) != (self.index, self.generation) {
+            let reason = format!(
+                "after {} generations it has generation {} of island {}",
+                self.generation, report.generation, report.island
+            );
+            return Err(StoreError::Damaged { path: self.path.clone(), reason });
+        }
+        // A generation's champion is written before its report.
+        let mut champion = None;
+        loop {
+            self.coming = match self.coming.take() {
+                None => self.champions.next_record()?,
+                coming => coming,
+            };
+            if self.coming.as_ref().is_none_or(|coming| coming.generation > report.generation) {
+                return Ok(Some(Sighting { report, champion }));
+            }
+            champion = self.coming.take();
+        }
+    }
+
+    fn take(&mut self) -> Option<Sighting> {
+        let next = self.next.take()?;
+        self.generation += 1;
+        Some(next)
+    }
+}

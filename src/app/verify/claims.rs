@@ -1,0 +1,194 @@
+//! What the files of the whole run claim, compared with what its islands left.
+
+use super::super::result;
+use super::SMALL_FILE_BYTES_MAX;
+use super::check::{Check, counted};
+use super::records::Records;
+use super::rules::{Terms, may_have_lived};
+use crate::archipelago::{Digest, Island};
+use crate::creature::Gene;
+use crate::formats::{genome_csv, metrics, urdf};
+use crate::store::{RunDir, StoreError, file};
+use serde_json::{Map, Value};
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// What a summary says that depends on where the run's folder is, or on who looks at it.
+const FREE: [&str; 4] = ["best_genome", "run_dir", "recording", "version"];
+
+/// What stands in the place of `summary.json`.
+pub enum Summary {
+    /// There is none.
+    Missing,
+    /// Something else, and why it is none.
+    Damaged(String),
+    /// One, whatever it says.
+    Whole(Map<String, Value>),
+}
+
+impl Summary {
+    /// Reads it.
+    pub fn read(dir: &RunDir) -> Self {
+        let path = dir.summary();
+        let bytes = match file::read(&path, SMALL_FILE_BYTES_MAX) {
+            Ok(bytes) => bytes,
+            Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
+                return Self::Missing;
+            }
+            Err(error) => return Self::Damaged(error.to_string()),
+        };
+        let damaged = |reason| Self::Damaged(format!("{} is damaged: {reason}", path.display()));
+        serde_json::from_slice(&bytes).map_or_else(|error| damaged(error.to_string()), Self::Whole)
+    }
+
+    /// Whether it is that of a run of so many generations, or may have been before it was damaged. One of fewer
+    /// is left from before the run was prolonged.
+    pub fn is_of_the_end(&self, generations: u32) -> bool {
+        match self {
+            Self::Missing => false,
+            Self::Damaged(_) => true,
+            Self::Whole(said) => {
+                let claimed = said.get("generations").and_then(Value::as_u64);
+                claimed.is_none_or(|claimed| claimed >= u64::from(generations))
+            }
+        }
+    }
+
+    fn says(&self, key: &str) -> Option<&Value> {
+        match self {
+            Self::Whole(said) => said.get(key),
+            _ => None,
+        }
+    }
+}
+
+/// The row of a run that has not finished.
+pub fn none_yet(terms: &Terms, records: &Records) -> Check {
+    let mut check = Check::of("digest");
+    let generations = terms.config.generations;
+    // An island without a state begins from the seed.
+    let all = records.states.len() == terms.config.islands as usize;
+    let slowest = records.states.iter().map(|state| state.generation).min();
+    check.note(format!(
+        "none yet: the run has not finished, and may be resumed from generation {} of {generations}",
+        slowest.filter(|_| all).unwrap_or(0)
+    ));
+    check
+}
+
+/// Checks the claims of a run that has finished; `sound` says that nothing is wrong with its records. The digest
+/// that its final populations have, if they are there, comes first.
+pub fn check(
+    dir: &RunDir,
+    terms: &Terms,
+    records: &Records,
+    summary: &Summary,
+    sound: bool,
+) -> (Option<String>, Vec<Check>) {
+    let finals = records.finals(terms);
+    let digest = finals.map(|finals| Digest::of(finals).to_string());
+    let checks = vec![
+        check_digest(dir, digest.as_deref(), summary, records.states.len()),
+        check_summary(dir, terms, finals.filter(|_| sound), records, summary),
+        check_champion(dir, terms, finals),
+        check_metrics(dir, terms, records, sound),
+    ];
+    (digest, checks)
+}
+
+fn check_digest(dir: &RunDir, found: Option<&str>, summary: &Summary, states: usize) -> Check {
+    let mut check = Check::of("digest").checked(counted(states, "population"));
+    let claimed = summary.says("digest").and_then(Value::as_str);
+    match (found, claimed) {
+        (None, _) => check.note("none: a final population is missing or damaged"),
+        (Some(found), Some(claimed)) if found != claimed => check.damaged(format_args!(
+            "{} claims {}, and the final populations have {found}",
+            dir.summary().display(),
+            claimed.chars().take(64).collect::<String>()
+        )),
+        (Some(found), _) => check.result(found),
+    }
+    check
+}
+
+fn check_summary(
+    dir: &RunDir,
+    terms: &Terms,
+    finals: Option<&[Island<Gene>]>,
+    records: &Records,
+    summary: &Summary,
+) -> Check {
+    let mut check = Check::of("summary").checked("summary.json");
+    match (summary, finals) {
+        (Summary::Missing, _) => check.damaged("it is missing"),
+        (Summary::Damaged(reason), _) => check.damaged(reason),
+        (Summary::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
+        (Summary::Whole(said), Some(finals)) => {
+            let right = result::summarise(dir, terms.config, finals, &records.reports);
+            let right = serde_json::to_value(right).expect("a summary is plain data");
+            let claims = right.as_object().into_iter().flatten();
+            for (key, value) in claims.filter(|(key, _)| !FREE.contains(&key.as_str())) {
+                let found = said.get(key);
+                // A digest that is another one has a row of its own, and another version may say less.
+                let is_elsewhere = key == "digest" && found.is_some_and(Value::is_string);
+                let is_unknown = found.is_none() && !terms.is_of_this_version();
+                if found != Some(value) && !is_elsewhere && !is_unknown {
+                    check.judge(&dir.summary(), Err(format!("{key} must be {value}")));
+                }
+            }
+        }
+    }
+    check
+}
+
+/// The files of the best creature must be those that a run writes for it.
+fn check_champion(dir: &RunDir, terms: &Terms, finals: Option<&[Island<Gene>]>) -> Check {
+    let mut check = Check::of("champion").checked("champion.csv, .urdf");
+    let champion = finals.map(|finals| &result::best(finals).champion.genome);
+    let Some(genome) = champion.filter(|genome| may_have_lived(genome, terms.config)) else {
+        check.note("not checked: a final population is missing or damaged");
+        return check;
+    };
+    let mut right = Vec::new();
+    genome_csv::write(genome, &mut right).expect("memory takes everything");
+    compare(&mut check, &dir.champion_genome(), &right, "the best champion's genome");
+    // What cannot be expressed has no body.
+    if let Ok(creature) = terms.config.problem().express(genome)
+        && terms.is_of_this_version()
+    {
+        let mut right = Vec::new();
+        let (morphology, controller) = (&creature.morphology, &creature.controller);
+        urdf::write(morphology, controller, "champion", &mut right)
+            .expect("memory takes everything");
+        compare(&mut check, &dir.champion_body(), &right, "the best champion's body");
+    }
+    check
+}
+
+fn check_metrics(dir: &RunDir, terms: &Terms, records: &Records, sound: bool) -> Check {
+    let mut check = Check::of("metrics").checked("metrics.csv");
+    if !sound {
+        check.note("not checked: the islands' records are damaged");
+    } else if !terms.is_of_this_version() {
+        check.note("not checked: another version may write other columns");
+    } else {
+        let mut right = Vec::new();
+        metrics::write(&result::rows(&records.reports), true, &mut right)
+            .expect("memory takes everything");
+        compare(&mut check, &dir.metrics(), &right, "the reports of all islands");
+    }
+    check
+}
+
+/// A file that is written from something must be what would be written again.
+fn compare(check: &mut Check, path: &Path, right: &[u8], source: &str) {
+    let found = match file::read(path, right.len()) {
+        Ok(found) => found,
+        Err(error) => return check.damaged(error),
+    };
+    if found != right {
+        let same = found.iter().zip(right).take_while(|(found, right)| found == right).count();
+        let line = right[..same].iter().filter(|&&byte| byte == b'\n').count() + 1;
+        check.judge(path, Err(format!("line {line} is not what {source} says")));
+    }
+}

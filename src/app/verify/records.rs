@@ -1,0 +1,221 @@
+//! What the islands of a run left, read and checked.
+
+use super::check::{Check, counted};
+use super::retrial::Claim;
+use super::rules::Terms;
+use crate::archipelago::{Island, Outbox};
+use crate::creature::Gene;
+use crate::store::{Champion, Checkpoints, Entry, RecordLog, RunDir};
+use serde::{Serialize, de::DeserializeOwned};
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+/// The whole records of every island, in the order of their index.
+#[derive(Default)]
+pub struct Records {
+    /// The newest state of each island that is as it must be; those without one are left out.
+    pub states: Vec<Island<Gene>>,
+    /// Each island's champions.
+    pub champions: Vec<Vec<Champion<Gene>>>,
+    /// Each island's generations.
+    pub reports: Vec<Vec<Entry>>,
+    /// What each island sent.
+    pub outboxes: Vec<Vec<Outbox<Gene>>>,
+}
+
+impl Records {
+    /// Reads what there is of every island, and says what is wrong with it.
+    pub fn read(dir: &RunDir, terms: &Terms) -> (Self, Vec<Check>) {
+        let mut records = Self::default();
+        let mut reader = Reader::new(dir, terms);
+        (0..terms.config.islands).for_each(|island| reader.island(island, &mut records));
+        let checks = reader.checks(&records);
+        (records, checks)
+    }
+
+    /// The final states, if all are there.
+    pub fn finals(&self, terms: &Terms) -> Option<&[Island<Gene>]> {
+        let is_final = |state: &Island<Gene>| state.generation == terms.config.generations;
+        let all = self.states.len() == terms.config.islands as usize;
+        (all && self.states.iter().all(is_final)).then_some(&self.states)
+    }
+
+    /// All who are said to have a fitness: champions; thoroughly, also those who live in the newest states and all
+    /// who migrated.
+    pub fn claims(&self, thorough: bool, terms: &Terms) -> Vec<Claim<'_>> {
+        let champions = (0..).zip(&self.champions).flat_map(|(island, champions)| {
+            champions.iter().map(move |Champion { generation, individual }| Claim {
+                who: "champion",
+                island,
+                generation: *generation,
+                individual,
+            })
+        });
+        let residents = self.states.iter().flat_map(|state| {
+            let Island { index: island, generation, .. } = *state;
+            let claim = move |individual| Claim { who: "resident", island, generation, individual };
+            state.population.iter().map(claim)
+        });
+        let interval = terms.config.migration_interval;
+        let migrants = self.outboxes.iter().flatten().flat_map(|outbox| {
+            let island = outbox.island;
+            let generation = outbox.epoch.saturating_add(1).saturating_mul(interval);
+            let claim = move |individual| Claim { who: "migrant", island, generation, individual };
+            outbox.migrants.iter().map(claim)
+        });
+        match thorough {
+            true => champions.chain(residents).chain(migrants).collect(),
+            false => champions.collect(),
+        }
+    }
+}
+
+/// Reads one island after another.
+struct Reader<'a> {
+    dir: &'a RunDir,
+    terms: &'a Terms<'a>,
+    /// Checkpoints that there are, whole or not.
+    files: usize,
+    checkpoints: Check,
+    reports: Check,
+    champions: Check,
+    migrations: Check,
+}
+
+impl<'a> Reader<'a> {
+    fn new(dir: &'a RunDir, terms: &'a Terms<'a>) -> Self {
+        Self {
+            dir,
+            terms,
+            files: 0,
+            checkpoints: Check::of("checkpoints"),
+            reports: Check::of("reports"),
+            champions: Check::of("champions"),
+            migrations: Check::of("migrations"),
+        }
+    }
+
+    fn island(&mut self, island: u32, records: &mut Records) {
+        let Self { dir, terms, .. } = *self;
+        let (newest, files) = self.newest_state(island);
+        let state = newest.as_ref();
+
+        let span = terms.span(state, |generation| generation + 1);
+        let rule = |entries: &[Entry]| terms.reports(island, entries, state);
+        let reports = read_log(&dir.reports(island), &mut self.reports, terms, span, rule);
+        if files == 0 && reports.len() > 1 {
+            self.checkpoints.damaged(format_args!(
+                "there is no checkpoint of island {island}, which has evolved {}",
+                counted(reports.len(), "generation")
+            ));
+        }
+
+        let span = usize::from(state.is_some())..=terms.config.generations as usize + 1;
+        let rule = |champions: &[_]| terms.champions(champions, &reports, state);
+        let champions = read_log(&dir.champions(island), &mut self.champions, terms, span, rule);
+
+        let span = terms.span(state, |generation| terms.epochs(generation));
+        let rule = |outboxes: &[_]| terms.outboxes(island, outboxes, &reports);
+        let outboxes = read_log(&dir.migrations(island), &mut self.migrations, terms, span, rule);
+
+        records.states.extend(newest);
+        records.reports.push(reports);
+        records.champions.push(champions);
+        records.outboxes.push(outboxes);
+    }
+
+    /// The newest state of an island that is as it must be, and how many checkpoints there are.
+    fn newest_state(&mut self, island: u32) -> (Option<Island<Gene>>, usize) {
+        let last = self.dir.checkpoint(island, self.terms.config.generations);
+        let (mut newest, mut files, mut lacks_last) = (None, 0, self.terms.finished);
+        let folder = Checkpoints::of(self.dir, island);
+        let checkpoints = match folder.load() {
+            Ok(checkpoints) => checkpoints,
+            Err(error) => {
+                self.checkpoints.damaged(error);
+                return (None, 0);
+            }
+        };
+        for (path, checkpoint) in checkpoints {
+            files += 1;
+            lacks_last &= path != last;
+            match checkpoint {
+                Err(error) => self.checkpoints.damaged(error),
+                Ok(checkpoint) => {
+                    let judged = self.terms.state(&checkpoint);
+                    newest = newest.or(judged.is_ok().then_some(checkpoint.island));
+                    self.checkpoints.judge(&path, judged);
+                }
+            }
+        }
+        if lacks_last {
+            self.checkpoints.damaged(format_args!("{} is missing", last.display()));
+        }
+        self.files += files;
+        (newest, files)
+    }
+
+    /// The rows of the table.
+    fn checks(self, records: &Records) -> Vec<Check> {
+        fn all<T>(logs: &[Vec<T>]) -> usize {
+            logs.iter().map(Vec::len).sum()
+        }
+        let Self { files, checkpoints, reports, champions, migrations, .. } = self;
+        vec![
+            checkpoints.checked(counted(files, "file")),
+            reports.checked(counted(all(&records.reports), "generation")),
+            champions.checked(counted(all(&records.champions), "champion")),
+            migrations.checked(counted(all(&records.outboxes), "epoch")),
+        ]
+    }
+}
+
+/// The whole records of a log, of which there must be so many and for which a rule must hold.
+fn read_log<T: Serialize + DeserializeOwned>(
+    path: &Path,
+    check: &mut Check,
+    terms: &Terms,
+    span: RangeInclusive<usize>,
+    rule: impl FnOnce(&[T]) -> Result<(), String>,
+) -> Vec<T> {
+    let (records, torn_bytes) = match RecordLog::<T>::read(path) {
+        Ok(contents) => (contents.records, contents.torn_bytes),
+        Err(error) => {
+            check.damaged(error);
+            return Vec::new();
+        }
+    };
+    let judged =
+        judge_length(records.len(), torn_bytes, span, terms.finished).and_then(|()| rule(&records));
+    if torn_bytes > 0 && judged.is_ok() {
+        check.note(format!(
+            "ok, but {} ends in a torn record of {torn_bytes} bytes, which a resume writes again",
+            path.display()
+        ));
+    }
+    check.judge(path, judged);
+    records
+}
+
+/// Whether a log may have so many whole records, and what follows them.
+fn judge_length(
+    records: usize,
+    torn_bytes: u64,
+    span: RangeInclusive<usize>,
+    finished: bool,
+) -> Result<(), String> {
+    let found = counted(records, "whole record");
+    let tail = match torn_bytes {
+        0 => String::new(),
+        bytes => format!(", followed by {bytes} bytes that are none"),
+    };
+    if records < *span.start() {
+        Err(format!("it has {found} where there must be {}{tail}", span.start()))
+    } else if records > *span.end() {
+        Err(format!("it has {found} where there can be {}{tail}", span.end()))
+    } else if torn_bytes > 0 && finished {
+        Err(format!("it has {found}{tail}"))
+    } else {
+        Ok(())
+    }
+}

@@ -1,0 +1,168 @@
+//! Simulating again what was scored, which must get the same fitness to the last bit.
+
+use super::super::config::Config;
+use super::super::console::{Stopwatch, say};
+use super::check::{Check, counted};
+use super::rules::may_have_lived;
+use crate::creature::Gene;
+use crate::evolution::{Fitness, Individual, Problem};
+use crate::problems::Locomotion;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
+use std::io::IsTerminal;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Lines are so far apart where there is no terminal, in seconds.
+const LINE_EVERY_S: f64 = 5.0;
+
+/// That somebody is as good as a file says.
+#[derive(Debug, Clone, Copy)]
+pub struct Claim<'a> {
+    /// Who: a champion, an individual or a migrant.
+    pub who: &'static str,
+    /// On which island.
+    pub island: u32,
+    /// In which generation.
+    pub generation: u32,
+    /// The genome and what it is said to be worth.
+    pub individual: &'a Individual<Gene>,
+}
+
+/// Somebody who is not as good as a file says.
+#[derive(Debug, Serialize)]
+pub struct Mismatch {
+    who: &'static str,
+    island: u32,
+    generation: u32,
+    /// The fitness in the file; the most negative number if it says that there was no score.
+    recorded: f64,
+    /// What it gets; none if no such genome can have lived in the run.
+    found: Option<f64>,
+}
+
+impl Display for Mismatch {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { who, island, generation, recorded, found } = self;
+        write!(f, "a {who} of island {island}, generation {generation}, is recorded with ")?;
+        write!(f, "{}, but ", number(*recorded))?;
+        match found {
+            Some(found) => write!(f, "gets {}", number(*found)),
+            None => write!(f, "has a genome that cannot have lived in this run"),
+        }
+    }
+}
+
+/// A saturated fitness as people can compare it to the last bit.
+fn number(saturated: f64) -> String {
+    if saturated == f64::MIN { "no score".to_owned() } else { saturated.to_string() }
+}
+
+/// What came of simulating again.
+#[derive(Debug)]
+pub struct Retrial {
+    /// Different genomes that were simulated.
+    pub simulated: usize,
+    /// Who has another fitness.
+    pub mismatches: Vec<Mismatch>,
+}
+
+impl Retrial {
+    /// The row of the table.
+    pub fn check(&self) -> Check {
+        let mut check = Check::of("simulations").checked(counted(self.simulated, "genome"));
+        self.mismatches.iter().for_each(|mismatch| check.damaged(mismatch));
+        check
+    }
+}
+
+/// Simulates on the threads of the current rayon pool, equal genomes once.
+pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
+    let genomes: BTreeMap<&[u8], &[Gene]> = claims
+        .iter()
+        .map(|claim| (key(claim), claim.individual.genome.as_slice()))
+        .filter(|(_, genome)| may_have_lived(genome, config))
+        .collect();
+    let found = evaluate(genomes, &config.problem());
+    let mismatch = |claim: &Claim| {
+        let Claim { who, island, generation, individual } = *claim;
+        let (recorded, found) = (individual.fitness, found.get(key(claim)).copied());
+        let bits = |fitness: Fitness| fitness.get().to_bits();
+        let is_right = found.map(bits) == Some(bits(recorded));
+        (!is_right).then(|| Mismatch {
+            who,
+            island,
+            generation,
+            recorded: recorded.saturated(),
+            found: found.map(Fitness::saturated),
+        })
+    };
+    let mismatches = claims.iter().filter_map(mismatch).collect();
+    Retrial { simulated: found.len(), mismatches }
+}
+
+/// The fitness of each genome.
+fn evaluate<'a>(
+    genomes: BTreeMap<&'a [u8], &[Gene]>,
+    problem: &Locomotion,
+) -> BTreeMap<&'a [u8], Fitness> {
+    let genomes: Vec<_> = genomes.into_iter().collect();
+    let meter = Meter::new(genomes.len());
+    let evaluate = |&(key, genome): &(_, &[Gene])| {
+        let evaluation = problem.evaluate(genome);
+        meter.tick();
+        (key, evaluation.fitness)
+    };
+    let found = genomes.par_iter().with_max_len(1).map(evaluate).collect();
+    meter.finish();
+    found
+}
+
+/// Equal genomes have equal bytes.
+fn key<'a>(claim: &Claim<'a>) -> &'a [u8] {
+    bytemuck::cast_slice(&claim.individual.genome)
+}
+
+/// How far it has come: a bar on a terminal, now and then a line elsewhere.
+struct Meter {
+    genomes: usize,
+    done: AtomicUsize,
+    bar: Option<ProgressBar>,
+    last_line: Mutex<Stopwatch>,
+}
+
+impl Meter {
+    fn new(genomes: usize) -> Self {
+        let style = ProgressStyle::with_template(
+            "simulating again {bar:30.cyan/blue} {pos}/{len} {elapsed_precise}",
+        )
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+        let bar = std::io::stderr()
+            .is_terminal()
+            .then(|| ProgressBar::new(genomes as u64).with_style(style));
+        let last_line = Mutex::new(Stopwatch::start());
+        Self { genomes, done: AtomicUsize::new(0), bar, last_line }
+    }
+
+    fn tick(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        if let Some(bar) = &self.bar {
+            return bar.inc(1);
+        }
+        // Who finds it taken leaves the line to another thread.
+        let Ok(mut last_line) = self.last_line.try_lock() else { return };
+        if last_line.seconds() >= LINE_EVERY_S {
+            *last_line = Stopwatch::start();
+            say(&format!("simulated {done} of {} again", counted(self.genomes, "genome")));
+        }
+    }
+
+    fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! What must hold of an island's files if they are what a run left.
+//!
+//! Checksums show what was damaged by chance. These rules show what was changed and given a right checksum, as far
+//! as that can be seen without evolving the whole run again.
+
+use super::super::config::Config;
+use crate::archipelago::{Archipelago, Island, Outbox};
+use crate::creature::Gene;
+use crate::evolution::generation::Effort;
+use crate::evolution::population::best;
+use crate::evolution::{Fitness, Gene as _};
+use crate::store::{Champion, Checkpoint, Entry};
+use std::ops::RangeInclusive;
+
+/// The run that the files must be of.
+pub struct Terms<'a> {
+    /// Its configuration, checked.
+    pub config: &'a Config,
+    /// Whether it has come to its end: then its logs are complete.
+    pub finished: bool,
+    archipelago: Archipelago,
+    settings: String,
+}
+
+impl<'a> Terms<'a> {
+    /// The terms of a run that was launched.
+    pub fn new(config: &'a Config, finished: bool) -> Self {
+        Self { config, finished, archipelago: config.archipelago(), settings: settings(config) }
+    }
+
+    /// Whether this version of the program made it; another one may write the same otherwise.
+    pub fn is_of_this_version(&self) -> bool {
+        version(self.config) == env!("CARGO_PKG_VERSION")
+    }
+
+    /// How many records a log may have that has `of(g)` of them after generation g: all of a finished run, else
+    /// at least those that the island's state needs.
+    pub fn span(
+        &self,
+        state: Option<&Island<Gene>>,
+        of: impl Fn(usize) -> usize,
+    ) -> RangeInclusive<usize> {
+        let all = of(self.config.generations as usize);
+        match self.finished {
+            true => all..=all,
+            false => state.map_or(0, |state| of(state.generation as usize))..=all,
+        }
+    }
+
+    /// What must hold of a checkpoint, but for its place and its checksum.
+    pub fn state(&self, checkpoint: &Checkpoint<Gene>) -> Result<(), String> {
+        let Checkpoint { settings, island } = checkpoint;
+        let generations = self.config.generations;
+        if *settings != self.settings {
+            return Err("it was saved under other settings than those in run.toml".to_owned());
+        }
+        if island.generation > generations {
+            return Err(format!("the run ends with generation {generations}"));
+        }
+        island.fits(&self.archipelago, island.index).map_err(|misfit| misfit.to_string())
+    }
+
+    /// What must hold of an island's reports.
+    pub fn reports(
+        &self,
+        island: u32,
+        entries: &[Entry],
+        state: Option<&Island<Gene>>,
+    ) -> Result<(), String> {
+        for (generation, entry) in (0..).zip(entries) {
+            self.report(island, generation, entry)
+                .map_err(|reason| format!("the report of generation {generation} {reason}"))?;
+        }
+        let Some(state) = state else { return Ok(()) };
+        let lived = &entries[..entries.len().min(state.generation as usize + 1)];
+        let Some(last) = lived.last() else { return Ok(()) };
+        let effort =
+            lived.iter().fold(Effort::default(), |sum, entry| sum.and(entry.report.effort));
+        let best = best(&state.population).map(|best| best.fitness);
+        if effort != state.effort || best != Some(last.report.statistics.best) {
+            let generation = state.generation;
+            return Err(format!("it disagrees with the checkpoint of generation {generation}"));
+        }
+        Ok(())
+    }
+
+    fn report(&self, island: u32, generation: u32, entry: &Entry) -> Result<(), String> {
+        let report = &entry.report;
+        let wrong = |reason: &str| Err(reason.to_owned());
+        if (report.island, report.generation) != (island, generation) {
+            return wrong("is of another island or generation");
+        }
+        let elites = if generation == 0 { 0 } else { self.config.elites };
+        let brood = (self.config.population - elites) as u64;
+        let Effort { evaluations, reused, outcomes } = report.effort;
+        let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+        if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
+            return wrong("counts evaluations that cannot have been");
+        }
+        let arrive = self.archipelago.migration.immigration(generation).is_some();
+        let senders = self.archipelago.in_neighbours(island).len();
+        let immigrants = if arrive { senders * self.config.migrants } else { 0 };
+        if report.immigrants as usize != immigrants {
+            return wrong("counts immigrants that cannot have been");
+        }
+        if !entry.seconds.is_finite() || entry.seconds < 0.0 {
+            return wrong("took no time that there is");
+        }
+        Ok(())
+    }
+
+    /// What must hold of an island's champions.
+    pub fn champions(
+        &self,
+        champions: &[Champion<Gene>],
+        entries: &[Entry],
+        state: Option<&Island<Gene>>,
+    ) -> Result<(), String> {
+        if champions.first().is_some_and(|first| first.generation != 0) {
+            return Err("its first champion is not of generation 0".to_owned());
+        }
+        for pair in champions.windows(2) {
+            let [before, after] = [&pair[0], &pair[1]];
+            let is_later = after.generation > before.generation;
+            if !is_later || after.individual.fitness <= before.individual.fitness {
+                return Err(format!(
+                    "the champion of generation {} is followed by one that is not later and better",
+                    before.generation
+                ));
+            }
+        }
+        let Some(state) = state else { return Ok(()) };
+        let reigning = reign(champions, state.generation).map(|champion| &champion.individual);
+        if reigning != Some(&state.champion) {
+            return Err(format!(
+                "it lacks the champion in the checkpoint of generation {}",
+                state.generation
+            ));
+        }
+        let mut lived = entries.iter().take(state.generation as usize + 1);
+        lived.try_for_each(|entry| self.reigns_rightly(champions, entry))
+    }
+
+    /// A champion is at least as good as everybody who lived; where elites live on, the best of the population
+    /// is as good as it. Without them an immigrant may be better for a moment and leave no such offspring.
+    fn reigns_rightly(&self, champions: &[Champion<Gene>], entry: &Entry) -> Result<(), String> {
+        let generation = entry.report.generation;
+        let best = entry.report.statistics.best;
+        let champion =
+            reign(champions, generation).map_or(Fitness::WORST, |reign| reign.individual.fitness);
+        if champion < best || (self.config.elites > 0 && champion > best) {
+            return Err(format!("it disagrees with the report of generation {generation}"));
+        }
+        Ok(())
+    }
+
+    /// How many outboxes an island has sent by the end of a generation.
+    pub fn epochs(&self, generation: usize) -> usize {
+        generation / self.config.migration_interval as usize
+    }
+
+    /// What must hold of an island's journal.
+    pub fn outboxes(
+        &self,
+        island: u32,
+        outboxes: &[Outbox<Gene>],
+        entries: &[Entry],
+    ) -> Result<(), String> {
+        for (epoch, outbox) in (0..).zip(outboxes) {
+            let wrong = |reason: &str| Err(format!("the outbox of epoch {epoch} {reason}"));
+            if (outbox.island, outbox.epoch) != (island, epoch) {
+                return wrong("is of another island or epoch");
+            }
+            let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
+            let lived = outbox.migrants.iter().all(|m| may_have_lived(&m.genome, self.config));
+            let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
+            if fitness.len() != self.config.migrants || !are_the_best || !lived {
+                return wrong("holds migrants that cannot have been sent");
+            }
+            let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
+            let best = entries.get(generation).map(|entry| entry.report.statistics.best);
+            if let (Some(best), Some(&first)) = (best, fitness.first())
+                && best != first
+            {
+                return wrong(&format!("disagrees with the report of generation {generation}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The version of the program that launched a run.
+pub fn version(config: &Config) -> &str {
+    config.launch.as_ref().map_or("", |launch| launch.version.as_str())
+}
+
+/// Whether an individual of the run can have had this genome.
+pub fn may_have_lived(genome: &[Gene], config: &Config) -> bool {
+    (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(|gene| gene.is_valid())
+}
+
+/// The champion at the end of a generation; they must be in order.
+fn reign(champions: &[Champion<Gene>], generation: u32) -> Option<&Champion<Gene>> {
+    let after = champions.partition_point(|champion| champion.generation <= generation);
+    champions[..after].last()
+}
+
+/// The settings as the version that launched the run writes them into its checkpoints.
+fn settings(config: &Config) -> String {
+    let mut settings: toml::Table =
+        config.settings().parse().expect("it is the text of a table of ours");
+    settings.insert("version".to_owned(), version(config).into());
+    settings.to_string()
+}

@@ -1,0 +1,195 @@
+//! What must hold of any bytes whatever, a function a kind of input. The suite feeds them seeded inputs,
+//! `tests/fuzz` whatever finds new ways through the program.
+
+use super::pieces::{self, Sum, archipelago};
+use super::wire;
+use islands::app::config::Config;
+use islands::archipelago::{Outbox, island};
+use islands::creature::{Gene, Profile, express};
+use islands::evolution::{self, Individual};
+use islands::formats::{genome_csv, metrics};
+use islands::store::{Champion, Entry, Logbook, RecordLog, RunDir, Tail, checkpoint};
+use islands::transport::Limits;
+use serde::{Serialize, de::DeserializeOwned};
+use std::fs;
+use std::path::Path;
+
+/// A checkpoint: the data is the file, and what the file's checksum makes look whole.
+pub fn checkpoint(data: &[u8]) {
+    let path = Path::new("any.ckpt");
+    for bytes in [data, &pieces::sealed_checkpoint(data)] {
+        let Ok(found) = checkpoint::from_bytes::<Gene>(bytes, path) else { continue };
+        let again = checkpoint::to_bytes(&found);
+        assert_eq!(again.len(), bytes.len());
+        // No fitness is NaN, but a gene may be: bytes are compared.
+        let found = checkpoint::from_bytes::<Gene>(&again, path).expect("we wrote it");
+        assert_eq!(checkpoint::to_bytes(&found), again);
+    }
+}
+
+/// The logs of an island: the data is the file, and a record of each log.
+pub fn record_logs(data: &[u8]) {
+    let folder = pieces::folder();
+    for bytes in [data, &pieces::sealed_records(data)] {
+        let path = folder.path().join("log");
+        fs::write(&path, bytes).expect("it is writable");
+        is_sound::<Champion<Gene>>(&path);
+        is_sound::<Outbox<Gene>>(&path);
+        // The last cuts off what is torn.
+        let whole = is_sound::<Entry>(&path);
+        let left = fs::read(&path).expect("it is there");
+        assert!(bytes.starts_with(&left));
+        let log = RecordLog::<Entry>::open(&path).expect("it is a file");
+        assert_eq!(log.len(), whole);
+        drop(log);
+        let contents = RecordLog::<Entry>::read(&path);
+        for Entry { report, seconds } in contents.into_iter().flat_map(|it| it.records) {
+            let row = metrics::Row::new(&report, seconds);
+            assert!(row.failures <= row.evaluations);
+        }
+    }
+}
+
+/// Reads the log in every way, which must agree; how many records it has.
+fn is_sound<T: Serialize + DeserializeOwned>(path: &Path) -> usize {
+    let contents = RecordLog::<T>::read(path);
+    let mut tail = Tail::<T>::of(path);
+    let mut followed = 0;
+    while let Ok(Some(_)) = tail.next_record() {
+        followed += 1;
+    }
+    let log = RecordLog::<T>::open(path).expect("it is a file");
+    let last = log.last_that(|_| true);
+    match contents {
+        Ok(contents) => {
+            assert_eq!((contents.records.len(), followed), (log.len(), log.len()));
+            assert_eq!(last.expect("all are whole").is_some(), !log.is_empty());
+        }
+        Err(_) => assert!(followed < log.len()),
+    }
+    log.len()
+}
+
+/// A genome.
+pub fn genome_csv(data: &[u8]) {
+    let read = match genome_csv::read(data) {
+        Ok(read) => read,
+        Err(error) => return is_one_sentence(&error.to_string()),
+    };
+    assert!(is_valid(&read.genome));
+    let mut written = Vec::new();
+    genome_csv::write(&read.genome, &mut written).expect("memory takes everything");
+    let again = genome_csv::read(written.as_slice()).expect("we wrote it");
+    assert_eq!(bits(&again.genome), bits(&read.genome));
+    assert_eq!(again.clamped, []);
+    for profile in Profile::ALL {
+        let creature = express(&read.genome, profile, 16);
+        assert!(creature.is_ok_and(|it| it.tree.len() <= 16) || !profile.is_cut());
+    }
+}
+
+fn bits(genome: &[Gene]) -> Vec<u64> {
+    genome.iter().flat_map(|gene| gene.0.map(f64::to_bits)).collect()
+}
+
+fn is_valid(genome: &[Gene]) -> bool {
+    !genome.is_empty() && genome.iter().all(evolution::Gene::is_valid)
+}
+
+fn is_one_sentence(message: &str) {
+    let is_short = message.len() < 2_000 && !message.contains(char::is_control);
+    assert!(is_short && !message.is_empty(), "{message:?}");
+}
+
+/// A configuration.
+pub fn config(data: &[u8]) {
+    let folder = pieces::folder();
+    let path = folder.path().join("run.toml");
+    fs::write(&path, data).expect("it is writable");
+    let config = match Config::read(&path) {
+        Ok(config) => config,
+        Err(failure) => return is_one_sentence(&failure.message),
+    };
+    if let Err(failure) = config.check() {
+        return is_one_sentence(&failure.message);
+    }
+    fs::write(&path, config.to_toml()).expect("it is writable");
+    assert_eq!(Config::read(&path).as_ref(), Ok(&config));
+    assert!(!config.settings().is_empty());
+    let archipelago = config.archipelago();
+    assert!(archipelago.in_neighbours(0).iter().all(|&island| island < archipelago.islands));
+    for generation in [0, 1, config.generations] {
+        let _ = archipelago.migration.immigration(generation);
+        let _ = archipelago.migration.emigration(generation);
+    }
+    let problem = config.problem();
+    assert!((1..=config.max_genes).contains(&problem.genes) && problem.links_max >= 1);
+}
+
+/// The metrics of a run.
+pub fn metrics_csv(data: &[u8]) {
+    let Ok(rows) = metrics::read(data) else { return };
+    let mut written = Vec::new();
+    metrics::write(&rows, true, &mut written).expect("memory takes everything");
+    let again = metrics::read(written.as_slice()).expect("we wrote it");
+    let mut twice = Vec::new();
+    metrics::write(&again, true, &mut twice).expect("memory takes everything");
+    assert_eq!(written, twice);
+}
+
+/// A run directory, made of the data as [`pieces::lay_out`] says: an island either goes on from it or begins anew.
+pub fn logbook(data: &[u8]) {
+    let folder = pieces::folder();
+    let dir = RunDir::at(folder.path().join("run"));
+    let claim = dir.create(2).expect("it is new");
+    pieces::lay_out(&dir, data);
+    let opened = Logbook::<Gene>::open(&dir, &archipelago(), 0, pieces::SETTINGS);
+    drop(claim);
+    let restored = match opened {
+        Ok(restored) => restored,
+        Err(error) => return is_one_sentence(&error.to_string()),
+    };
+    restored.warnings.iter().for_each(|warning| is_one_sentence(warning));
+    for epoch in 0..restored.logbook.epochs() {
+        let _ = restored.logbook.outbox(epoch);
+    }
+    if let Some(island) = restored.island {
+        assert_eq!(island.population.len(), archipelago().strategy.population);
+        assert!(island.population.iter().all(|one| is_valid(&one.genome)));
+        let next = island::step(island, &[], &Sum, &archipelago());
+        let _ = next.island.effort.failures();
+    }
+}
+
+/// An outbox from shared memory: header and payload.
+pub fn outbox(data: &[u8]) {
+    let ((header, genes), limits) = (wire::batch(data), limits());
+    let Ok(outbox) = limits.outbox(header.island, header, &genes) else { return };
+    assert!(outbox.island < limits.islands && outbox.migrants.len() <= limits.migrants);
+    outbox.migrants.iter().for_each(|migrant| is_sound_individual(migrant, &limits));
+    let again = limits.batch(&outbox).expect("what may arrive may be sent");
+    assert_eq!(limits.outbox(header.island, again, &genes), Ok(outbox));
+}
+
+/// A report from shared memory: header and payload.
+pub fn report(data: &[u8]) {
+    let ((header, genes), limits) = (wire::report(data), limits());
+    let Ok(sighting) = limits.sighting(header, &genes) else { return };
+    let champion = sighting.champion.as_ref();
+    champion.into_iter().for_each(|champion| is_sound_individual(champion, &limits));
+    let effort = sighting.report.effort;
+    assert!(sighting.seconds.is_finite() && effort.failures() <= effort.evaluations);
+    let again = limits.report(&sighting.report, sighting.seconds, champion);
+    let again = again.expect("what may arrive may be sent");
+    assert_eq!(limits.sighting(again, &genes), Ok(sighting));
+}
+
+fn limits() -> Limits {
+    Limits::of(pieces::RUN_ID, &archipelago())
+}
+
+fn is_sound_individual(one: &Individual<Gene>, limits: &Limits) {
+    assert!(is_valid(&one.genome) && one.genome.len() <= limits.genes_max);
+    assert!(one.parents.iter().flatten().chain([&one.id]).all(|id| id.island < limits.islands));
+    assert!(!one.fitness.get().is_nan());
+}
