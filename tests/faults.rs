@@ -344,7 +344,6 @@ fn an_island_that_cannot_start_stops_the_run_and_says_why() {
 
 #[test]
 #[cfg(feature = "view")]
-#[ignore = "the recorder waits for ever for a file that cannot be written"]
 fn a_recording_that_finds_no_room_costs_the_film_and_nothing_else() {
     let world = World::new();
     let settings = format!("--n 1 {COPYIST} --generations 100 --json");
@@ -364,7 +363,6 @@ fn a_recording_that_finds_no_room_costs_the_film_and_nothing_else() {
 
 #[test]
 #[cfg(feature = "view")]
-#[ignore = "the monitor does not know --view-address"]
 fn islands_do_not_wait_for_a_monitor_that_is_stopped() {
     let world = World::new();
     let run = world.start(&format!("--n 2 {COPYIST} --generations 200 --json"));
