@@ -5,6 +5,8 @@ mod cleaning;
 mod cli;
 mod course;
 mod determinism;
+mod faults;
+mod forger;
 mod format;
 mod hostile;
 mod physics;

@@ -3,6 +3,7 @@
 use islands::store::{Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -48,6 +49,11 @@ impl World {
     /// A path in the folder that the program works in.
     pub fn path(&self, name: &str) -> PathBuf {
         self.home.path().join("work").join(name)
+    }
+
+    /// A path in the folder that the program has for temporary files.
+    pub fn temporary(&self, name: &OsStr) -> PathBuf {
+        self.home.path().join("tmp").join(name)
     }
 
     /// Writes a file there.
@@ -129,13 +135,20 @@ impl World {
         let temporary = fs::read_dir(self.home.path().join("tmp")).unwrap();
         let names: Vec<_> = temporary.map(|entry| entry.unwrap().file_name()).collect();
         assert!(names.is_empty(), "{names:?} is left");
-        let ids = runs_in_shared_memory();
         for file in self.files().iter().filter(|file| file.ends_with("run.toml")) {
             // A test may have spoilt it on purpose.
             let Some(id) = launch_id(&self.read(file)) else { continue };
-            assert!(!ids.contains(&id), "the run {id} left something in {SHARED_MEMORY}");
-            let fallback = Path::new("/tmp").join(format!("{NAME}{id}"));
-            assert!(!fallback.exists(), "the run {id} left {}", fallback.display());
+            self.assert_left_nothing_of(&id);
+        }
+    }
+
+    /// Asserts that the run with this id left nothing outside of its folder.
+    pub fn assert_left_nothing_of(&self, id: &str) {
+        let is_left = runs_in_shared_memory().contains(id);
+        assert!(!is_left, "the run {id} left something in {SHARED_MEMORY}");
+        let folder = format!("{NAME}{id}");
+        for folder in [self.temporary(folder.as_ref()), Path::new("/tmp").join(&folder)] {
+            assert!(!folder.exists(), "the run {id} left {}", folder.display());
         }
     }
 }

@@ -32,7 +32,7 @@ pub struct Post {
     deaths: Deaths,
     /// When the one before it was found dead, until it is ready to do its work.
     fell: Option<Stopwatch>,
-    /// The last thing that it complained of.
+    /// The last thing that it complained of, but for warnings.
     complaint: Option<String>,
     /// The last generation that it has evolved.
     pub generation: Option<u32>,
@@ -56,6 +56,7 @@ impl Crew {
         let post = self.posts.entry(role).or_default();
         post.kin = Some(kin);
         post.is_finished = false;
+        post.complaint = None;
         Ok(())
     }
 
@@ -149,9 +150,13 @@ impl Crew {
 }
 
 impl Post {
-    /// Keeps what it complains of.
+    /// Keeps what it complains of, if that may be what it dies of.
     pub fn complains(&mut self, line: &str) {
-        self.complaint = Some(line.to_owned());
+        // A panic ends with a note about backtraces.
+        let is_idle = |line: &str| line.starts_with("warning: ") || line.starts_with("note: ");
+        if !line.is_empty() && !is_idle(line) {
+            self.complaint = Some(line.to_owned());
+        }
     }
 
     /// What it complained of before it died.
@@ -181,6 +186,18 @@ fn threads_of(config: &Config, island: u32) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_last_complaint_is_the_reason_and_neither_a_warning_nor_a_note() {
+        let mut post = Post::default();
+        for line in ["warning: it waits", "", "thread 'main' panicked at x.rs:1:2:", "no egg"] {
+            post.complains(line);
+        }
+        post.complains("note: run with `RUST_BACKTRACE=1` to display a backtrace");
+        assert_eq!(post.take_complaint().as_deref(), Some("no egg"));
+        post.complains("warning: it waits");
+        assert_eq!(post.take_complaint(), None);
+    }
 
     #[test]
     fn threads_are_shared_out_fairly_and_everybody_gets_one() {

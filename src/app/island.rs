@@ -6,11 +6,12 @@ use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
 use super::patience::Patience;
-use crate::archipelago::{Archipelago, Deed, Step, Voyage};
+use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
 use crate::evolution::Problem;
 use crate::store::{Journal, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
 /// Runs one island of the run in a folder.
 ///
@@ -35,14 +36,20 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let problem = config.problem();
     let saved = island.as_ref().map(|island| island.generation);
     let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
-    let mut ship = Ship { voyage, exchange, logbook, ear, saved, refused: BTreeMap::new() };
-    ship.catch_up(&dir, &archipelago)?;
+    let epochs = config.generations / archipelago.migration.interval;
+    let refused = BTreeMap::new();
+    let mut ship =
+        Ship { voyage, archipelago: &archipelago, epochs, exchange, logbook, ear, saved, refused };
+    ship.catch_up(&dir)?;
     ship.sail(config.checkpoint_interval, config.generations)
 }
 
 /// An island and what connects it to the world: its neighbours, its files and its launcher.
 struct Ship<'a, P: Problem> {
     voyage: Voyage<'a, P>,
+    archipelago: &'a Archipelago,
+    /// What is sent in this run is of an epoch below this one.
+    epochs: u32,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
     ear: Ear,
@@ -55,16 +62,18 @@ struct Ship<'a, P: Problem> {
 impl<P: Problem> Ship<'_, P> {
     /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
     /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
-    fn catch_up(&mut self, dir: &RunDir, archipelago: &Archipelago) -> Result<(), Failure> {
+    fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let Some(island) = self.voyage.island() else { return Ok(()) };
         let window = self.exchange.history();
-        let next = archipelago.migration.next_immigration(island.generation);
-        for source in archipelago.in_neighbours(island.index) {
-            for outbox in Journal::read(&dir.migrations(source), next..next.saturating_add(window))?
-            {
-                if outbox.fits(archipelago, source) {
-                    self.voyage.receive(outbox);
+        let next = self.archipelago.migration.next_immigration(island.generation);
+        for source in self.archipelago.in_neighbours(island.index) {
+            let journal = dir.migrations(source);
+            match Journal::read(&journal, next..next.saturating_add(window)) {
+                Ok(outboxes) => {
+                    outboxes.into_iter().for_each(|outbox| self.take_in(source, outbox))
                 }
+                // It is the neighbour that cannot do without its journal. What is missing is asked for.
+                Err(error) => say(&format!("warning: {error}")),
             }
         }
         self.send_since(self.logbook.epochs().saturating_sub(window))
@@ -125,17 +134,34 @@ impl<P: Problem> Ship<'_, P> {
     fn receive(&mut self) {
         let received = self.exchange.receive();
         for outbox in received.outboxes {
-            self.voyage.receive(outbox);
+            self.take_in(outbox.island, outbox);
         }
         for (source, rejection) in received.rejected {
-            let count = self.refused.entry(source).or_default();
-            *count += 1;
-            // Whoever sends such things may send many.
-            if count.is_power_of_two() {
-                say(&format!(
-                    "warning: refused {count} batch(es) of migrants that came as island {source}'s: {rejection}"
-                ));
-            }
+            self.refuse(source, &rejection);
+        }
+    }
+
+    fn take_in(&mut self, source: u32, outbox: Outbox<P::Gene>) {
+        if !outbox.fits(self.archipelago, source) {
+            return self.refuse(source, &"it has an individual that cannot be in it");
+        }
+        let epoch = outbox.epoch;
+        let arrival = self.voyage.receive(outbox);
+        // A neighbour that is far ahead is no liar. One that is soon after the end may be of a run that was to
+        // be longer.
+        if arrival == Arrival::TooEarly && epoch >= self.epochs {
+            self.refuse(source, &"it is of an epoch long after the end of the run");
+        }
+    }
+
+    fn refuse(&mut self, source: u32, reason: &dyn Display) {
+        let count = self.refused.entry(source).or_default();
+        *count += 1;
+        // Whoever sends such things may send many.
+        if count.is_power_of_two() {
+            say(&format!(
+                "warning: refused {count} batch(es) of migrants that came as island {source}'s: {reason}"
+            ));
         }
     }
 

@@ -74,10 +74,11 @@ impl Launch {
         let supervised = Supervisor::launch(&config, &dir, &domain, &harbour, ear, output)
             .and_then(Supervisor::see_to_the_end);
         let summary = supervised.and_then(|()| result::gather(&dir, &config));
-        harbour.close()?;
+        let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
+        let closed = harbour.close();
         drop(claim);
         present(&summary?, output);
-        Ok(())
+        Ok(closed?)
     }
 }
 

@@ -98,7 +98,11 @@ impl From<crate::store::StoreError> for Failure {
 
 impl From<crate::transport::TransportError> for Failure {
     fn from(error: crate::transport::TransportError) -> Self {
-        Self::failed(error.to_string())
+        use crate::transport::TransportError::{NoSpace, TooManyMigrants};
+        match error {
+            NoSpace { .. } | TooManyMigrants { .. } => Self::usage(error.to_string()),
+            _ => Self::failed(error.to_string()),
+        }
     }
 }
 

@@ -52,7 +52,7 @@ impl Patience {
             waiting.has_said = true;
             let sources: Vec<String> = sources.iter().map(ToString::to_string).collect();
             say(&format!(
-                "warning: has waited {waited:.0} s for epoch {epoch} of island {}: is it stopped?",
+                "warning: has waited {waited:.0} s for epoch {epoch} of island {}, which may be stopped, or wait itself",
                 sources.join(", ")
             ));
         }

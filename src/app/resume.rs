@@ -61,6 +61,36 @@ pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
     Ok(config)
 }
 
+/// The failure of a run that was under way, and how to go on. One that was interrupted says so itself.
+pub fn way_back(failure: Failure, dir: &RunDir) -> Failure {
+    let is_interrupted = failure == Failure::interrupted(&failure.message);
+    match require_folder(dir) {
+        _ if is_interrupted => failure,
+        Err(gone) => gone,
+        Ok(()) => Failure::failed(format!(
+            "{}; the run stops, and nothing is lost; go on with: islands resume {}",
+            failure.message,
+            dir.path().display()
+        )),
+    }
+}
+
+/// Requires that the folder of a run under way is where it was. Its processes hold their files open and would
+/// write on into what nobody will ever read.
+///
+/// # Errors
+/// If it was moved or removed.
+pub fn require_folder(dir: &RunDir) -> Result<(), Failure> {
+    if dir.config().exists() {
+        return Ok(());
+    }
+    Err(Failure::failed(format!(
+        "the run's folder {} is gone: somebody has moved or removed it while the run was under way; what was moved \
+         can go on with islands resume",
+        dir.path().display()
+    )))
+}
+
 fn require_version(version: &str) -> Result<(), Failure> {
     let own = env!("CARGO_PKG_VERSION");
     if version == own {

@@ -9,6 +9,7 @@ use super::crew::Crew;
 use super::kinship::{Ear, FINISHED, READY, Role, SERVING, Word};
 use super::mortality::DEATHS_MAX;
 use super::result::Podium;
+use super::resume::require_folder;
 use crate::creature::Gene;
 use crate::problems::Locomotion;
 use crate::store::RunDir;
@@ -101,8 +102,8 @@ impl<'a> Supervisor<'a> {
                 let reached =
                     reached.map_or_else(String::new, |g| format!(" after generation {g}"));
                 return Err(Failure::interrupted(format!(
-                    "interrupted{reached}; {}",
-                    self.way_back()
+                    "interrupted{reached}; nothing is lost; go on with: islands resume {}",
+                    self.dir.path().display()
                 )));
             }
         }
@@ -112,6 +113,7 @@ impl<'a> Supervisor<'a> {
     /// Takes in what the others say and report, for a moment, and replaces those that have died.
     fn look(&mut self) -> Result<(), Failure> {
         let fallen = self.listen(LOOK);
+        require_folder(self.dir)?;
         self.take_reports()?;
         fallen.into_iter().try_for_each(|role| self.replace(role))
     }
@@ -161,7 +163,10 @@ impl<'a> Supervisor<'a> {
 
     fn hear_complaint(&mut self, role: Role, line: &str) {
         self.crew.post(role).complains(line);
-        let line = line.strip_prefix("warning: ").unwrap_or(line);
+        let line = ["warning: ", "error: "]
+            .iter()
+            .find_map(|kind| line.strip_prefix(kind))
+            .unwrap_or(line);
         self.chronicle.warn(&format!("{role}: {line}"));
     }
 
@@ -182,12 +187,6 @@ impl<'a> Supervisor<'a> {
         let Some(status) = self.crew.bury(role)? else { return Ok(()) };
         // Its last words are here only now; who else has fallen is found by its silence.
         let others = self.listen(Duration::ZERO);
-        if !self.dir.config().exists() {
-            return Err(Failure::failed(format!(
-                "the run's folder {} is gone: somebody has removed it while the run was under way",
-                self.dir.path().display()
-            )));
-        }
         match self.crew.post(role).leave_hope(status) {
             true => self.start_again(role, status)?,
             false if role == Role::Monitor => self.chronicle.warn(&format!(
@@ -213,20 +212,15 @@ impl<'a> Supervisor<'a> {
         let post = self.crew.post(role);
         let after = match post.generation {
             Some(generation) => format!("after generation {generation}"),
-            None => "in its first generation".to_owned(),
+            None => "before it had evolved anything".to_owned(),
         };
         let complaint = post.take_complaint();
         let words = complaint.map_or_else(String::new, |words| {
             format!(", saying “{}”", words.strip_prefix("error: ").unwrap_or(&words))
         });
         Failure::failed(format!(
-            "{role} ended by itself {DEATHS_MAX} times {after} ({status}){words}; the run stops, and {}",
-            self.way_back()
+            "{role} ended by itself {DEATHS_MAX} times {after} ({status}){words}"
         ))
-    }
-
-    fn way_back(&self) -> String {
-        format!("nothing is lost; go on with: islands resume {}", self.dir.path().display())
     }
 
     /// Asks everybody to stop, and waits for them.
