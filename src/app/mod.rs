@@ -1,37 +1,28 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. The `launcher` makes
-//! what a run needs, or finds it (`resume`); its `supervisor` starts a process for each island (`island`) and one
-//! that watches (`monitor`), and starts them again when they die, unless that has no hope (`mortality`). They are
-//! its `crew`, tied to it by `kinship`: they die with it, and stop when it closes their standard input. What
-//! happens is told and logged by a `chronicle`, how far it got shown by `progress`; at the end what the islands
-//! wrote is gathered into a `result`. `clean` removes what a killed launcher left, `verify` looks whether a run's folder holds what it claims, `evaluate`,
-//! `inspect` and `replay` look at single genomes.
+//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. `run` is the launcher: it
+//! starts a process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they
+//! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
+//! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
+//! `evaluate`, `inspect` and `replay` look at single `genomes`. `console` prints and reads the clock, `table` lays out.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
-mod chronicle;
 mod clean;
 mod cli;
 pub mod config;
 mod console;
-mod crew;
 mod evaluate;
 mod genomes;
 mod inspect;
 mod island;
 mod kinship;
-mod launcher;
 mod monitor;
-mod mortality;
-mod patience;
-mod progress;
 mod replay;
 mod result;
-mod resume;
+mod run;
 mod settings;
-mod supervisor;
 mod table;
 mod verify;
 
@@ -43,9 +34,9 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     let cli = cli::parse();
     let done = match cli.command {
-        None => launcher::run(&cli.run),
-        Some(Command::Run(args)) => launcher::run(&args),
-        Some(Command::Resume(args)) => launcher::resume(&args),
+        None => run::run(&cli.run),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Resume(args)) => run::resume(&args),
         Some(Command::Evaluate(args)) => evaluate::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),

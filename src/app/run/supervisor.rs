@@ -1,14 +1,14 @@
 //! A run under way: its processes are started, watched, started again, and stopped.
 
-use super::Failure;
+use super::super::Failure;
+use super::super::cli::OutputArgs;
+use super::super::config::Config;
+use super::super::console::Stopwatch;
+use super::super::kinship::{Ear, FINISHED, READY, Role, SERVING, Word};
+use super::super::result::Podium;
 use super::chronicle::Chronicle;
-use super::cli::OutputArgs;
-use super::config::Config;
-use super::console::Stopwatch;
 use super::crew::Crew;
-use super::kinship::{Ear, FINISHED, READY, Role, SERVING, Word};
 use super::mortality::DEATHS_MAX;
-use super::result::Podium;
 use super::resume::require_folder;
 use crate::creature::Gene;
 use crate::problems::Locomotion;

@@ -1,9 +1,9 @@
 //! The processes of a run: who they are, what is known of each, and how one is started again.
 
-use super::Failure;
-use super::config::Config;
-use super::console::Stopwatch;
-use super::kinship::{Kin, Role, Word};
+use super::super::Failure;
+use super::super::config::Config;
+use super::super::console::Stopwatch;
+use super::super::kinship::{Kin, Role, Word};
 use super::mortality::Deaths;
 use crate::store::RunDir;
 use std::collections::BTreeMap;

@@ -1,9 +1,9 @@
 //! Whether a run can go on, and how: what `islands resume` checks before it starts anything.
 
-use super::Failure;
-use super::config::Config;
-use super::console::Stopwatch;
-use super::settings::SettingArgs;
+use super::super::Failure;
+use super::super::config::Config;
+use super::super::console::Stopwatch;
+use super::super::settings::SettingArgs;
 use crate::creature::Gene;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
 use std::thread::sleep;

@@ -1,15 +1,17 @@
 //! An island's process: evolve, exchange, record.
 
+mod patience;
+
 use super::Failure;
 use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
-use super::patience::Patience;
 use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
 use crate::evolution::Problem;
 use crate::store::{Journal, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
+use patience::Patience;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 

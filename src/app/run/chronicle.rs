@@ -1,7 +1,7 @@
 //! What happens in a run: told on the terminal, and kept in the run's log.
 
-use super::Failure;
-use super::config::Config;
+use super::super::Failure;
+use super::super::config::Config;
 use super::progress::Progress;
 use crate::archipelago::Report;
 use crate::evolution::Problem;

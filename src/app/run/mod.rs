@@ -1,18 +1,29 @@
 //! `islands run` and `islands resume`: from what was asked for to the result.
+//!
+//! Here a run is made, or found again by [`resume`]. Then a [`supervisor`] sees it to its end: it starts the
+//! [`crew`], hears what its members say, and starts again who dies, unless that has no hope ([`mortality`]). What
+//! happens is told and logged by a [`chronicle`], and how far it got is shown by [`progress`].
 
+mod chronicle;
+mod crew;
+mod mortality;
+mod progress;
+mod resume;
+mod supervisor;
+
+use super::Failure;
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
 use super::console::print;
 use super::kinship::Ear;
 use super::result::{self, Summary};
-use super::supervisor::Supervisor;
-use super::{Failure, resume};
 use crate::creature::Gene;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
 use rand::TryRng;
 use rustix::fs::Mode;
 use std::path::{Path, PathBuf};
+use supervisor::Supervisor;
 
 /// Runs a run from its first process to its result.
 ///

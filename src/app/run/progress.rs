@@ -1,7 +1,7 @@
 //! How a run is getting on: a bar an island on a terminal, plain lines elsewhere.
 
-use super::config::Config;
-use super::console::{Stopwatch, say};
+use super::super::config::Config;
+use super::super::console::{Stopwatch, say};
 use crate::archipelago::Report;
 use crate::evolution::Problem;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
