@@ -82,19 +82,11 @@ impl Kin {
             .process_group(0)
             .spawn()
             .map_err(failed)?;
-        let complaints = child.stderr.take().map(|stream| {
-            let words = words.clone();
-            std::thread::spawn(move || {
-                forward(stream, |line| send(&words, role, Word::Complained(line)))
-            })
-        });
-        let sayings = child.stdout.take().map(|stream| {
-            let words = words.clone();
-            std::thread::spawn(move || {
-                forward(stream, |line| send(&words, role, Word::Said(line)));
-                send(&words, role, Word::Fell);
-            })
-        });
+        let to = || (role, words.clone());
+        let complaints =
+            child.stderr.take().map(|stream| forward(stream, Word::Complained, None, to()));
+        let sayings =
+            child.stdout.take().map(|stream| forward(stream, Word::Said, Some(Word::Fell), to()));
         let stdin = child.stdin.take();
         Ok(Self { role, child, stdin, readers: complaints.into_iter().chain(sayings).collect() })
     }
@@ -132,17 +124,24 @@ impl Drop for Kin {
     }
 }
 
-fn forward(stream: impl Read, send: impl Fn(String)) {
-    let mut lines = BufReader::new(stream).split(b'\n').map_while(Result::ok);
-    lines.by_ref().for_each(|line| send(String::from_utf8_lossy(&line).into_owned()));
+/// Sends each line of a stream as a word of somebody's, and a last word at its end.
+fn forward(
+    stream: impl Read + Send + 'static,
+    word: fn(String) -> Word,
+    last: Option<Word>,
+    (role, words): (Role, Sender<(Role, Word)>),
+) -> JoinHandle<()> {
+    std::thread::spawn(move || {
+        let lines = BufReader::new(stream).split(b'\n').map_while(Result::ok);
+        let lines = lines.map(|line| word(String::from_utf8_lossy(&line).into_owned()));
+        for word in lines.chain(last) {
+            // A launcher that does not listen is about to end. Its child must be able to speak all the same.
+            let _ = words.send((role, word));
+        }
+    })
 }
 
-fn send(words: &Sender<(Role, Word)>, role: Role, word: Word) {
-    // A launcher that no longer listens is about to end.
-    let _ = words.send((role, word));
-}
-
-/// How urgently a process is to stop.
+// How urgently a process is to stop.
 const UNASKED: u8 = 0;
 const ASKED: u8 = 1;
 const URGED: u8 = 2;

@@ -29,9 +29,11 @@ pub struct Crew {
 #[derive(Default)]
 pub struct Post {
     kin: Option<Kin>,
+    /// Whether it has died, or will in a moment, and was not buried.
+    has_fallen: bool,
     deaths: Deaths,
-    /// When the one before it was found dead, until it is ready to do its work.
-    fell: Option<Stopwatch>,
+    /// Since the one before it was found dead, until it is ready to do its work.
+    vacant: Option<Stopwatch>,
     /// The last thing that it complained of, but for warnings.
     complaint: Option<String>,
     /// The last generation that it has evolved.
@@ -55,6 +57,7 @@ impl Crew {
         let kin = Kin::start(role, &self.arguments(role), &self.sender)?;
         let post = self.posts.entry(role).or_default();
         post.kin = Some(kin);
+        post.has_fallen = false;
         post.is_finished = false;
         post.complaint = None;
         Ok(())
@@ -68,6 +71,12 @@ impl Crew {
     /// What is known of a role.
     pub fn post(&mut self, role: Role) -> &mut Post {
         self.posts.entry(role).or_default()
+    }
+
+    /// Those who have died, or will in a moment, and were not buried.
+    pub fn fallen(&self) -> Vec<Role> {
+        let fallen = self.posts.iter().filter(|(_, post)| post.has_fallen);
+        fallen.map(|(role, _)| *role).collect()
     }
 
     /// Whether every island has evolved all its generations.
@@ -85,23 +94,25 @@ impl Crew {
         self.posts.get(&role).is_some_and(|post| post.kin.is_some())
     }
 
-    /// Waits for the end of one that has fallen. Nothing if it was buried already.
+    /// Waits for the end of one that has fallen, and until all that it said can be heard. Nothing if it was
+    /// buried already.
     ///
     /// # Errors
     /// If it cannot be waited for.
     pub fn bury(&mut self, role: Role) -> Result<Option<ExitStatus>, Failure> {
         let post = self.post(role);
+        post.has_fallen = false;
         let Some(kin) = post.kin.take() else { return Ok(None) };
-        post.fell = Some(Stopwatch::start());
+        post.vacant = Some(Stopwatch::start());
         kin.bury().map(Some)
     }
 
-    /// Asks those in these roles to stop.
+    /// Asks those in the roles that are meant to stop.
     pub fn ask_to_stop(&mut self, is_meant: impl Fn(Role) -> bool) {
         self.kin(is_meant).filter_map(Option::as_mut).for_each(Kin::ask_to_stop);
     }
 
-    /// Waits until they have ended, for a while, unless there is a hurry. Returns whether they have.
+    /// Waits until they have ended, for `most`, unless there is a hurry. Returns whether they have.
     pub fn await_end(
         &mut self,
         is_meant: impl Fn(Role) -> bool,
@@ -118,7 +129,7 @@ impl Crew {
         true
     }
 
-    /// Kills those of them who live: that is no harm to anybody.
+    /// Kills those of them who live, and waits for their end.
     pub fn kill(&mut self, is_meant: impl Fn(Role) -> bool) {
         self.kin(is_meant).for_each(|kin| drop(kin.take()));
     }
@@ -150,6 +161,11 @@ impl Crew {
 }
 
 impl Post {
+    /// It has died, or will in a moment.
+    pub fn falls(&mut self) {
+        self.has_fallen = true;
+    }
+
     /// Keeps what it complains of, if that may be what it dies of.
     pub fn complains(&mut self, line: &str) {
         // A panic ends with a note about backtraces.
@@ -169,9 +185,9 @@ impl Post {
         self.deaths.leave_hope(status, self.generation)
     }
 
-    /// It can do its work. Says how long nobody did, in seconds, if it is a successor.
-    pub fn is_ready(&mut self) -> Option<f64> {
-        self.fell.take().map(Stopwatch::seconds)
+    /// It can do its work. Returns how long nobody did, in seconds, if it is a successor.
+    pub fn gets_ready(&mut self) -> Option<f64> {
+        self.vacant.take().map(Stopwatch::seconds)
     }
 }
 

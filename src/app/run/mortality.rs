@@ -3,7 +3,7 @@
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 
-/// So often an island may end by itself without having got any further in between.
+/// So often a process may end by itself without having got any further in between.
 pub const DEATHS_MAX: u32 = 5;
 
 /// The deaths of one process, and of those that came after it in its role.

@@ -112,25 +112,24 @@ impl<'a> Supervisor<'a> {
 
     /// Takes in what the others say and report, for a moment, and replaces those that have died.
     fn look(&mut self) -> Result<(), Failure> {
-        let fallen = self.listen(LOOK);
+        self.listen(LOOK);
         require_folder(self.dir)?;
         self.take_reports()?;
-        fallen.into_iter().try_for_each(|role| self.replace(role))
+        // Who falls meanwhile is seen to the next time: so an interruption is heard however often they die.
+        self.crew.fallen().into_iter().try_for_each(|role| self.replace(role))
     }
 
-    /// Hears everybody out, and returns who has died.
-    fn listen(&mut self, within: Duration) -> Vec<Role> {
-        let mut fallen = Vec::new();
+    /// Hears everybody out.
+    fn listen(&mut self, within: Duration) {
         let mut word = self.crew.hear(within);
         while let Some((role, what)) = word {
             match what {
                 Word::Said(line) => self.heed(role, &line),
                 Word::Complained(line) => self.hear_complaint(role, &line),
-                Word::Fell => fallen.push(role),
+                Word::Fell => self.crew.post(role).falls(),
             }
             word = self.crew.hear(Duration::ZERO);
         }
-        fallen
     }
 
     fn heed(&mut self, role: Role, line: &str) {
@@ -139,7 +138,7 @@ impl<'a> Supervisor<'a> {
         } else if let Some(generation) = line.strip_prefix(READY) {
             self.welcome(role, generation.parse().ok());
         } else if let Some(address) = line.strip_prefix(SERVING) {
-            self.crew.post(role).is_ready();
+            self.crew.post(role).gets_ready();
             self.chronicle.tell(&format!("watch it live:  rerun {address}"));
         } else {
             self.chronicle.tell(&format!("{role}: {line}"));
@@ -154,7 +153,7 @@ impl<'a> Supervisor<'a> {
             Some(generation) => format!("after generation {generation}"),
             None => "from the seed".to_owned(),
         };
-        if let Some(seconds) = post.is_ready() {
+        if let Some(seconds) = post.gets_ready() {
             self.chronicle.tell(&format!("{role} goes on {after}, {seconds:.3} s after its death"));
         } else if generation.is_some() {
             self.chronicle.tell(&format!("{role} goes on {after}"));
@@ -185,8 +184,8 @@ impl<'a> Supervisor<'a> {
     /// Starts somebody again who has died, unless it would die again.
     fn replace(&mut self, role: Role) -> Result<(), Failure> {
         let Some(status) = self.crew.bury(role)? else { return Ok(()) };
-        // Its last words are here only now; who else has fallen is found by its silence.
-        let others = self.listen(Duration::ZERO);
+        // Its last words are here only now.
+        self.listen(Duration::ZERO);
         match self.crew.post(role).leave_hope(status) {
             true => self.start_again(role, status)?,
             false if role == Role::Monitor => self.chronicle.warn(&format!(
@@ -194,7 +193,7 @@ impl<'a> Supervisor<'a> {
             )),
             false => return Err(self.despair(role, status)),
         }
-        others.into_iter().try_for_each(|role| self.replace(role))
+        Ok(())
     }
 
     fn start_again(&mut self, role: Role, status: ExitStatus) -> Result<(), Failure> {
