@@ -40,9 +40,9 @@ pub struct Voyage<'a, P: Problem> {
 /// What an island does next.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Deed<G> {
-    /// It has evolved a generation. Before its owner calls [`Voyage::advance`] again, it must in this order
-    /// append the outbox to the journal, record the generation and save the island where that is due, and
-    /// send the outbox. An outbox whose epoch the journal has already is the same to the last bit.
+    /// It has evolved a generation. Before its owner calls [`Voyage::advance`] again, it records the generation
+    /// and appends the outbox to the journal, and only then sends the outbox, and saves the island where that is
+    /// due. An outbox whose epoch the journal has already is the same to the last bit.
     Evolved(Box<Step<G>>),
     /// It asks these in-neighbours for their outboxes from `epoch` on.
     Ask {

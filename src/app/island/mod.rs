@@ -38,27 +38,45 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let problem = config.problem();
     let saved = island.as_ref().map(|island| island.generation);
     let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
-    let epochs = config.generations / archipelago.migration.interval;
-    let refused = BTreeMap::new();
-    let mut ship =
-        Ship { voyage, archipelago: &archipelago, epochs, exchange, logbook, ear, saved, refused };
+    let mut ship = Ship {
+        config: &config,
+        archipelago: &archipelago,
+        voyage,
+        exchange,
+        logbook,
+        ear,
+        patience: Patience::new(),
+        generation_began: Stopwatch::start(),
+        told: Told::default(),
+        saved,
+        refused: BTreeMap::new(),
+    };
     ship.catch_up(&dir)?;
-    ship.sail(config.checkpoint_interval, config.generations)
+    ship.sail()
 }
 
 /// An island and what connects it to the world: its neighbours, its files and its launcher.
 struct Ship<'a, P: Problem> {
-    voyage: Voyage<'a, P>,
+    config: &'a Config,
     archipelago: &'a Archipelago,
-    /// What is sent in this run is of an epoch below this one.
-    epochs: u32,
+    voyage: Voyage<'a, P>,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
     ear: Ear,
+    patience: Patience,
+    generation_began: Stopwatch,
+    told: Told,
     /// The generation of its newest checkpoint.
     saved: Option<u32>,
     /// Batches that were refused, by the island that they came as.
     refused: BTreeMap<u32, u64>,
+}
+
+/// What an island has told its launcher, once each.
+#[derive(Default)]
+struct Told {
+    ready: bool,
+    finished: bool,
 }
 
 impl<P: Problem> Ship<'_, P> {
@@ -82,54 +100,62 @@ impl<P: Problem> Ship<'_, P> {
     }
 
     /// Evolves until all is done, and serves the neighbours until the launcher wants it to stop.
-    fn sail(&mut self, checkpoint_interval: u32, generations: u32) -> Result<(), Failure> {
+    fn sail(&mut self) -> Result<(), Failure> {
         let clock = Stopwatch::start();
-        let mut patience = Patience::new();
-        let mut generation_began = Stopwatch::start();
-        let mut is_ready = false;
-        let mut is_finished = false;
         while !self.ear.heard_stop() {
             self.receive();
             self.answer()?;
-            if !is_ready && self.voyage.waits_for().is_none() {
-                is_ready = true;
-                self.tell_ready();
-            }
+            self.tell_ready();
             match self.voyage.advance(clock.elapsed()) {
-                Deed::Evolved(step) => {
-                    let seconds = generation_began.seconds();
-                    generation_began = Stopwatch::start();
-                    patience.learn(seconds);
-                    self.record(&step, seconds)?;
-                    let generation = step.island.generation;
-                    if generation.is_multiple_of(checkpoint_interval) || generation == generations {
-                        self.save()?;
-                    }
-                }
-                Deed::Ask { sources, epoch } => {
-                    sources.into_iter().for_each(|source| self.exchange.request(source, epoch));
-                }
-                Deed::Wait => {
-                    patience.wait(self.voyage.waits_for());
-                    self.exchange.wait(TICK)?;
-                }
-                Deed::Arrived => {
-                    if !std::mem::replace(&mut is_finished, true) {
-                        tell(FINISHED);
-                    }
-                    self.exchange.wait(TICK)?;
-                }
+                Deed::Evolved(step) => self.conclude(&step)?,
+                Deed::Ask { sources, epoch } => self.ask(&sources, epoch),
+                Deed::Wait => self.wait()?,
+                Deed::Arrived => self.rest()?,
             }
         }
         self.save()
     }
 
-    fn tell_ready(&self) {
-        let generation = self.voyage.island().map(|island| island.generation);
-        tell(&format!(
-            "{READY}{}",
-            generation.map_or_else(|| "nothing".to_owned(), |g| g.to_string())
-        ));
+    /// Tells the launcher that it can evolve the next generation, as soon as it can.
+    fn tell_ready(&mut self) {
+        if self.told.ready || self.voyage.waits_for().is_some() {
+            return;
+        }
+        self.told.ready = true;
+        let generation = self.voyage.island().map(|island| island.generation.to_string());
+        tell(&format!("{READY}{}", generation.as_deref().unwrap_or("nothing")));
+    }
+
+    /// A generation was evolved: what it came to is recorded, sent, and saved where that is due.
+    fn conclude(&mut self, step: &Step<P::Gene>) -> Result<(), Failure> {
+        let seconds = std::mem::replace(&mut self.generation_began, Stopwatch::start()).seconds();
+        self.patience.learn(seconds);
+        self.record(step, seconds)?;
+        let Config { checkpoint_interval, generations, .. } = *self.config;
+        let generation = step.island.generation;
+        match generation.is_multiple_of(checkpoint_interval) || generation == generations {
+            true => self.save(),
+            false => Ok(()),
+        }
+    }
+
+    fn ask(&self, sources: &[u32], epoch: u32) {
+        sources.iter().for_each(|&source| self.exchange.request(source, epoch));
+    }
+
+    fn wait(&mut self) -> Result<(), Failure> {
+        self.patience.wait(self.voyage.waits_for());
+        self.exchange.wait(TICK)?;
+        Ok(())
+    }
+
+    /// All is evolved: the launcher is told, and neighbours may still ask.
+    fn rest(&mut self) -> Result<(), Failure> {
+        if !std::mem::replace(&mut self.told.finished, true) {
+            tell(FINISHED);
+        }
+        self.exchange.wait(TICK)?;
+        Ok(())
     }
 
     /// Takes in what arrived.
@@ -148,10 +174,11 @@ impl<P: Problem> Ship<'_, P> {
             return self.refuse(source, &"it has an individual that cannot be in it");
         }
         let epoch = outbox.epoch;
+        let epochs = self.config.generations / self.archipelago.migration.interval;
         let arrival = self.voyage.receive(outbox);
         // A neighbour that is far ahead is no liar. One that is soon after the end may be of a run that was to
         // be longer.
-        if arrival == Arrival::TooEarly && epoch >= self.epochs {
+        if arrival == Arrival::TooEarly && epoch >= epochs {
             self.refuse(source, &"it is of an epoch long after the end of the run");
         }
     }
