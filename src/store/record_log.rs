@@ -71,12 +71,13 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
     /// The record number `index`, from 0, if there is one.
     ///
     /// # Errors
-    /// If it cannot be read, or is not one of this type.
+    /// If it cannot be read, is not one of this type, or was damaged while the log was open.
     pub fn get(&self, index: usize) -> Result<Option<T>, StoreError> {
         let start = index.checked_sub(1).map_or(Some(0), |before| self.ends.get(before).copied());
         let (Some(start), Some(_)) = (start, self.ends.get(index)) else { return Ok(None) };
         let body = body_at(&self.file, start).map_err(StoreError::io("read", &self.path))?;
-        body.map(|body| decode(&body)).transpose().map_err(|reason| self.damaged(reason))
+        let body = body.ok_or_else(|| self.damaged(format!("record {index} is not whole")))?;
+        decode(&body).map(Some).map_err(|reason| self.damaged(reason))
     }
 
     /// The last record for which `belongs` holds, and its number; those after it are read to find it.
@@ -325,6 +326,21 @@ mod tests {
         log.truncate(1).expect("it is writable");
         log.append(&"four".to_owned()).expect("the disk has room");
         assert_eq!((log.len(), read(&path)), (2, vec!["one".to_owned(), "four".to_owned()]));
+    }
+
+    #[test]
+    fn a_record_that_was_damaged_while_the_log_was_open_is_an_error_and_not_a_gap() {
+        let folder = folder();
+        let path = folder.path().join("log");
+        write(&path, &["one", "two"]);
+        let log = RecordLog::<String>::open(&path).expect("it is there");
+        let whole = std::fs::read(&path).expect("it is there");
+        for harmed in [&whole[..whole.len() - 1], &[&whole[..whole.len() - 1], &[0]].concat()] {
+            std::fs::write(&path, harmed).expect("it is writable");
+            assert_eq!(log.get(0).expect("it is whole").as_deref(), Some("one"));
+            let error = log.get(1).expect_err("it is damaged").to_string();
+            assert!(error.ends_with("log is damaged: record 1 is not whole"), "{error}");
+        }
     }
 
     #[test]
