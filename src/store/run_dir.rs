@@ -190,6 +190,7 @@ impl Claim {
 impl Drop for Claim {
     fn drop(&mut self) {
         self.sweep();
+        // It may never have been made, and an empty folder is in nobody's way.
         let _ = std::fs::remove_dir(self.dir.partial());
     }
 }

@@ -42,6 +42,9 @@ const EVENT_SOCKET: &str = ".event";
 const UNFINISHED: u32 = 0o600;
 
 /// Gives free what the dead processes of a domain held, and returns how many there were.
+///
+/// # Errors
+/// If something is still held after several rounds.
 pub fn bury_dead(domain: &Domain, node: &Node) -> Result<u64, TransportError> {
     let memory = SharedMemory::own();
     let [mut buried, mut failed] = [BTreeSet::new(), BTreeSet::new()];

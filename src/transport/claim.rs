@@ -45,6 +45,9 @@ pub enum Found {
 
 impl Claim {
     /// Claims a run whose folder will be `root`.
+    ///
+    /// # Errors
+    /// If somebody has claimed it, or the claim cannot be made.
     pub fn make(memory: &SharedMemory, run_id: u64, root: &Path) -> Result<Self, TransportError> {
         let path = memory.claim(run_id);
         let file = make_locked(&path).map_err(|source| TransportError::folder(&path, source))?;
@@ -84,11 +87,13 @@ impl Claim {
 
     /// Removes all that the run has, and the claim last: what cannot be removed stays claimed, for the next
     /// one who cleans up.
+    ///
+    /// # Errors
+    /// If something cannot be removed.
     pub fn remove(&self) -> Result<(), TransportError> {
         // Islands die a moment after their launcher, and may make something until then: so twice.
         for _ in 0..2 {
-            let removed = self.memory.remove_objects(self.run_id);
-            removed.map_err(|(path, source)| TransportError::Folder { path, source })?;
+            self.memory.remove_objects(self.run_id)?;
             if let Some(folder) = self.folder() {
                 unless_gone(fs::remove_dir_all(folder))
                     .map_err(|source| TransportError::folder(folder, source))?;

@@ -54,6 +54,9 @@ impl Domain {
     }
 
     /// Claims the domain and makes its folder, for this user only.
+    ///
+    /// # Errors
+    /// If it is claimed already, or cannot be made.
     pub(super) fn create(&self) -> Result<Claim, TransportError> {
         let claim = Claim::make(&SharedMemory::own(), self.run_id, &self.root)?;
         let made = || {
@@ -91,6 +94,9 @@ impl Domain {
 
     /// Checks that shared memory has `needed` free bytes. Without them a write into it would end the
     /// process by SIGBUS, in the middle of a run.
+    ///
+    /// # Errors
+    /// If there are fewer.
     pub fn check_space(&self, needed: u64) -> Result<(), TransportError> {
         // Where there is no such folder, shared memory has no size that could be asked for.
         let Ok(status) = rustix::fs::statvfs(SHARED_MEMORY) else { return Ok(()) };

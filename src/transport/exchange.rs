@@ -55,6 +55,9 @@ impl<G: Gene> Exchange<G> {
     ///
     /// Call it before other threads make files: iceoryx2 changes the umask of the whole process while it
     /// makes its socket.
+    ///
+    /// # Errors
+    /// If the launcher is gone, or something cannot be opened.
     pub fn open(
         domain: &Domain,
         archipelago: &Archipelago,
@@ -90,6 +93,9 @@ impl<G: Gene> Exchange<G> {
 
     /// Sends an outbox of this island to all its out-neighbours, and returns how many of them had room for
     /// it. The others will ask for it.
+    ///
+    /// # Errors
+    /// If the outbox is none that may travel, or the memory to send from is exhausted.
     pub fn publish(&self, outbox: &Outbox<G>) -> Result<usize, TransportError> {
         if outbox.island != self.island {
             return Err(TransportError::Unsendable { reason: Rejection::Island });
@@ -142,6 +148,9 @@ impl<G: Gene> Exchange<G> {
     /// Waits until a neighbour has sent or asked something, for `timeout` or one [`TICK`] at most. Returns
     /// whether somebody did. Call it again and again while there is nothing else to do: it also connects
     /// this island to neighbours that were born meanwhile, who would otherwise wait for it for ever.
+    ///
+    /// # Errors
+    /// If the system does not let it wait.
     pub fn wait(&self, timeout: Duration) -> Result<bool, TransportError> {
         // A socket takes no time-out at all for one without end.
         let heard = if timeout < Duration::from_micros(1) {
@@ -160,6 +169,9 @@ impl<G: Gene> Exchange<G> {
 
     /// Tells the launcher about a generation, and about a new champion if there is one. It keeps only
     /// the newest for those that do not look.
+    ///
+    /// # Errors
+    /// If the champion is none that may travel, or the memory to send from is exhausted.
     pub fn report(
         &self,
         report: &Report,

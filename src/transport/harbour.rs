@@ -34,6 +34,10 @@ struct Services<G: Gene> {
 impl<G: Gene> Harbour<G> {
     /// Creates the domain's folder and every service of the run, once there is memory enough for it. What
     /// killed launchers have left is removed first.
+    ///
+    /// # Errors
+    /// If the run asks for more migrants or memory than there can be, its id is in use, or something cannot be
+    /// made.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
         for remains in Domain::abandoned() {
@@ -49,6 +53,9 @@ impl<G: Gene> Harbour<G> {
     }
 
     /// The shared memory that the run needs at most, in bytes.
+    ///
+    /// # Errors
+    /// If the run asks for more migrants than an outbox holds.
     pub fn bytes_needed(domain: &Domain, archipelago: &Archipelago) -> Result<u64, TransportError> {
         Ok(Plan::new(domain, archipelago)?.bytes::<G>())
     }
@@ -65,6 +72,9 @@ impl<G: Gene> Harbour<G> {
     }
 
     /// Ends the services and removes the domain. Dropping does the same and says nothing.
+    ///
+    /// # Errors
+    /// If something cannot be removed. It is found as that of a killed launcher then, when this process has ended.
     pub fn close(mut self) -> Result<(), TransportError> {
         self.remove()
     }
@@ -86,9 +96,7 @@ impl<G: Gene> Services<G> {
     fn create(domain: &Domain, plan: &Plan, islands: u32) -> Result<Self, TransportError> {
         let node = services::join(domain)?;
         // The counter of processes, which the first of them makes, would be open to every user.
-        SharedMemory::own()
-            .make_private(domain.run_id())
-            .map_err(|(path, source)| TransportError::Folder { path, source })?;
+        SharedMemory::own().make_private(domain.run_id())?;
         let outboxes = |island| {
             let service = plan.outboxes::<G>(&node, island)?.create();
             service.map_err(|e| TransportError::setup("outboxes", e))

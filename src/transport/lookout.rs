@@ -20,6 +20,9 @@ pub struct Lookout<G: Gene> {
 impl<G: Gene> Lookout<G> {
     /// Opens the reports of a run whose launcher is running. One that opens late still gets the last few of
     /// every island.
+    ///
+    /// # Errors
+    /// If the launcher is gone, or somebody watches by hand already.
     pub fn open(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
         let node = services::join(domain)?;

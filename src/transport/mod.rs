@@ -16,6 +16,11 @@
 //! launcher leaves ([`Domain::abandoned`]), the next one removes. An island opens an [`Exchange`]; who wants
 //! to watch opens a [`Lookout`], and there is room for one besides the launcher.
 //!
+//! Below these, from the ground: `names` says what everything of a run is called, `shared_memory` finds it, a
+//! `claim` says whose it is, and `remains` is what is there without a living launcher; `wire` is what travels,
+//! and `limits` what of it is believed; `services` lists the services, `ports` opens their ends, and `burial`
+//! gives free what dead islands held.
+//!
 //! # How it is meant to be used
 //!
 //! Channels may lose, repeat and reorder. What makes the exchange exact is that every outbox has an epoch,

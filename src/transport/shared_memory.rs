@@ -1,6 +1,6 @@
 //! The files that runs have in shared memory: objects of iceoryx2's, and one claim a run.
 
-use super::names;
+use super::{TransportError, names};
 use std::collections::BTreeMap;
 use std::fs::{self, Metadata, Permissions};
 use std::io;
@@ -73,20 +73,19 @@ impl SharedMemory {
     }
 
     /// Closes a run's objects to other users.
-    pub fn make_private(&self, run_id: u64) -> Result<(), (PathBuf, io::Error)> {
-        for Object { path, .. } in self.objects(run_id) {
-            let set = fs::set_permissions(&path, Permissions::from_mode(PRIVATE));
-            set.map_err(|error| (path, error))?;
-        }
-        Ok(())
+    pub fn make_private(&self, run_id: u64) -> Result<(), TransportError> {
+        self.objects(run_id).iter().try_for_each(|Object { path, .. }| {
+            let set = fs::set_permissions(path, Permissions::from_mode(PRIVATE));
+            set.map_err(|source| TransportError::folder(path, source))
+        })
     }
 
     /// Removes a run's objects.
-    pub fn remove_objects(&self, run_id: u64) -> Result<(), (PathBuf, io::Error)> {
-        for Object { path, .. } in self.objects(run_id) {
-            unless_gone(fs::remove_file(&path)).map_err(|error| (path, error))?;
-        }
-        Ok(())
+    pub fn remove_objects(&self, run_id: u64) -> Result<(), TransportError> {
+        self.objects(run_id).iter().try_for_each(|Object { path, .. }| {
+            let removed = unless_gone(fs::remove_file(path));
+            removed.map_err(|source| TransportError::folder(path, source))
+        })
     }
 
     /// Removes what processes that were killed over making it have left, and returns how much there was:

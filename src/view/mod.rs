@@ -4,7 +4,7 @@
 //! [`Draft`] and put in its place when it has everything that the one there has: a recording can be made anew at
 //! any time, and the old one is there until then. Read in this order: [`film`] says when a champion is on
 //! screen, so that no other need be simulated, [`clip`] turns its trajectory into columns of poses, [`scenery`]
-//! is what never changes, [`blueprint`] arranges it all, [`live`] serves it, [`recorder`] puts it together, and
+//! is what never changes, [`blueprint`] arranges it all, `file` writes it, [`live`] serves it, [`recorder`] puts it together, and
 //! [`palette`] holds every colour.
 //!
 //! What a recording holds, by entity:
