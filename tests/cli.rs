@@ -172,7 +172,7 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
             cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
             cannot write the recording good.csv/film.rrd: Not a directory (os error 20); choose another file with --out
-            there is no run in nowhere: it has no run.toml"#]],
+            there is no run in nowhere: name the folder of one, such as runs/walk-seed7"#]],
     );
 }
 

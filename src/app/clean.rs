@@ -4,7 +4,7 @@ use super::Failure;
 use super::cli::CleanArgs;
 use super::console::print;
 use super::table;
-use crate::transport::{Domain, Remains, Removal};
+use crate::transport::{Domain, Remains, Removal, TransportError};
 
 /// Lists what dead launchers of this user left, and removes it. Runs that are under way, and whatever is
 /// another user's, are neither listed nor touched; the runs' own folders are not either: they can be resumed.
@@ -17,16 +17,18 @@ pub fn run(args: &CleanArgs) -> Result<(), Failure> {
         print("nothing is left of any crashed run");
         return Ok(());
     }
-    let mut rows = vec![["run", "objects", "kB", "folder", "now"].map(str::to_owned)];
+    let mut rows = vec![["run", "objects", "kB", "folder", "result"].map(str::to_owned)];
     let mut stubborn = 0;
     for remains in remains {
         let [id, objects, size, folder] = describe(&remains);
-        let what = if args.dry_run {
-            "it would be removed".to_owned()
-        } else {
-            remove(remains, &mut stubborn)
+        let result = match args.dry_run {
+            true => "it would be removed".to_owned(),
+            false => remove(remains).unwrap_or_else(|error| {
+                stubborn += 1;
+                error.to_string()
+            }),
         };
-        rows.push([id, objects, size, folder, what]);
+        rows.push([id, objects, size, folder, result]);
     }
     print(&table::lay_out(&rows));
     match stubborn {
@@ -45,14 +47,11 @@ fn describe(remains: &Remains) -> [String; 4] {
     ]
 }
 
-fn remove(remains: Remains, stubborn: &mut usize) -> String {
-    match remains.remove() {
-        Ok(Removal::Done) => "removed".to_owned(),
-        Ok(Removal::Held) => "left alone: it is under way again".to_owned(),
-        Ok(Removal::Gone) => "gone already".to_owned(),
-        Err(error) => {
-            *stubborn += 1;
-            error.to_string()
-        }
-    }
+fn remove(remains: Remains) -> Result<String, TransportError> {
+    let result = match remains.remove()? {
+        Removal::Done => "removed",
+        Removal::Held => "left alone: it is under way again, or somebody else removes it",
+        Removal::Gone => "gone already",
+    };
+    Ok(result.to_owned())
 }

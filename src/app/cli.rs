@@ -1,5 +1,6 @@
 //! The command line.
 
+use super::config::FREE;
 use super::settings::SettingArgs;
 use crate::creature::Profile;
 use crate::problems::Task;
@@ -27,9 +28,6 @@ pub struct Cli {
     pub run: RunArgs,
 }
 
-/// The settings that may be other ones when a run goes on: they do not change what evolves.
-const FREE: [&str; 3] = ["generations", "threads", "checkpoint_interval"];
-
 /// Reads the command line; where it makes no sense the program ends with a sentence.
 pub fn parse() -> Cli {
     let matches = command().get_matches();
@@ -43,7 +41,7 @@ fn command() -> clap::Command {
     let fixed: Vec<String> = settings
         .get_arguments()
         .map(|arg| arg.get_id().to_string())
-        .filter(|name| !FREE.contains(&name.as_str()))
+        .filter(|name| !FREE.contains(&name.replace('_', "-").as_str()))
         .collect();
     Cli::command().mut_subcommand("resume", |resume| {
         resume.mut_args(|arg| match fixed.iter().any(|name| arg.get_id() == name.as_str()) {

@@ -25,6 +25,10 @@ pub const LINKS_MAX: usize = 512;
 /// The most threads.
 pub const THREADS_MAX: usize = 4_096;
 
+/// The settings that do not decide what evolves, only how long and how it is run: a run that goes on may have
+/// other ones.
+pub const FREE: [&str; 3] = ["generations", "threads", "checkpoint-interval"];
+
 /// The largest configuration file, in bytes; ours have a thousand.
 const FILE_BYTES_MAX: usize = 1 << 20;
 /// The longest complaint about a file that is passed on, in characters.
@@ -173,6 +177,18 @@ impl Config {
     /// # Errors
     /// One sentence that says what to change.
     pub fn check(&self) -> Result<(), Failure> {
+        self.check_ranges()?;
+        self.check_genes()?;
+        self.check_migrants()?;
+        match self.seed {
+            Some(seed) if seed > SEED_MAX => {
+                Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn check_ranges(&self) -> Result<(), Failure> {
         let within = |name, value: f64, least: f64, most: f64| {
             let fine = (least..=most).contains(&value);
             fine.then_some(()).ok_or_else(|| {
@@ -194,6 +210,11 @@ impl Config {
         within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
         within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
         within("generations", f64::from(self.generations), 0.0, 1e9)?;
+        let threads = self.threads.unwrap_or(1);
+        within("threads", threads as f64, 1.0, THREADS_MAX as f64)
+    }
+
+    fn check_genes(&self) -> Result<(), Failure> {
         let genes = self.population.saturating_mul(self.max_genes);
         if genes > GENES_OF_ISLAND_MAX {
             return Err(Failure::usage(format!(
@@ -202,6 +223,10 @@ impl Config {
                 self.population, self.max_genes
             )));
         }
+        Ok(())
+    }
+
+    fn check_migrants(&self) -> Result<(), Failure> {
         let migrants_max = MIGRANTS_MAX.min(self.population);
         if self.migrants > migrants_max {
             return Err(Failure::usage(format!(
@@ -210,20 +235,16 @@ impl Config {
                 self.migrants, self.population
             )));
         }
-        if self.seed.is_some_and(|seed| seed > SEED_MAX) {
-            return Err(Failure::usage(format!("seed must be at most {SEED_MAX}")));
-        }
-        let threads = self.threads.unwrap_or(1);
-        within("threads", threads as f64, 1.0, THREADS_MAX as f64)
+        Ok(())
     }
 
-    /// The settings that decide what evolves, as TOML: all but how long and how it is run. States that were
+    /// The settings that decide what evolves, as TOML: all but [`FREE`] and what launched it. States that were
     /// saved under other ones, or by another version, are of no use.
     pub fn settings(&self) -> String {
         let mut settings =
             toml::Table::try_from(self).expect("a checked configuration is plain data");
-        for free in ["generations", "checkpoint-interval", "threads", "launch"] {
-            settings.remove(free);
+        for other in FREE.into_iter().chain(["launch"]) {
+            settings.remove(other);
         }
         settings.insert("version".to_owned(), env!("CARGO_PKG_VERSION").into());
         settings.to_string()

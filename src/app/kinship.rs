@@ -1,8 +1,8 @@
 //! Parent and child processes: a child dies with its parent, stops when its standard input ends, and says what
 //! it has to say in lines on its standard output, and what went wrong on its standard error.
 
-use super::Failure;
 use super::console;
+use super::{Failure, INTERRUPTED};
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use signal_hook::iterator::Signals;
 use std::fmt;
@@ -159,12 +159,11 @@ impl Ear {
     /// # Errors
     /// If the parent is gone already.
     pub fn to(parent: i32) -> Result<Self, Failure> {
-        let orphaned = || Failure::failed("the launcher is gone");
         let tied = set_parent_process_death_signal(Some(Signal::KILL));
         tied.map_err(|error| Failure::failed(format!("cannot be tied to the launcher: {error}")))?;
         // The parent may have died before the tie.
         if getppid() != Pid::from_raw(parent) {
-            return Err(orphaned());
+            return Err(Failure::failed("the launcher is gone"));
         }
         let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
         let told = ear.clone();
@@ -194,7 +193,7 @@ impl Ear {
             signals.next();
             told.0.store(URGED, Ordering::Release);
             std::thread::sleep(LAST_CHANCE);
-            std::process::exit(130);
+            std::process::exit(INTERRUPTED.into());
         });
         Ok(ear)
     }

@@ -26,6 +26,7 @@ mod settings;
 mod table;
 mod verify;
 
+use crate::store::{RunDir, StoreError};
 use cli::Command;
 use std::process::ExitCode;
 
@@ -54,6 +55,9 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// The exit code of a run that the user stopped.
+const INTERRUPTED: u8 = 130;
+
 /// Why the program ends without having done what it was asked for.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
@@ -70,6 +74,14 @@ impl Failure {
         Self { message: message.into(), code: 2 }
     }
 
+    /// In this folder is no run.
+    pub fn no_run(dir: &RunDir) -> Self {
+        let path = dir.path().display();
+        Self::usage(format!(
+            "there is no run in {path}: name the folder of one, such as runs/walk-seed7"
+        ))
+    }
+
     /// Something did not work.
     pub fn failed(message: impl Into<String>) -> Self {
         Self { message: message.into(), code: 1 }
@@ -77,12 +89,17 @@ impl Failure {
 
     /// The user stopped it.
     pub fn interrupted(message: impl Into<String>) -> Self {
-        Self { message: message.into(), code: 130 }
+        Self { message: message.into(), code: INTERRUPTED }
+    }
+
+    /// Whether the user stopped it.
+    pub fn is_interruption(&self) -> bool {
+        self.code == INTERRUPTED
     }
 }
 
-impl From<crate::store::StoreError> for Failure {
-    fn from(error: crate::store::StoreError) -> Self {
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
         Self::failed(error.to_string())
     }
 }

@@ -71,8 +71,8 @@ pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
     is_sound.then(|| Summary {
-        // The folder may have been moved.
         best: config.problem().show(best(&islands).champion.fitness),
+        // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
         recording: Some(dir.recording()).filter(|path| path.exists()),
@@ -130,6 +130,15 @@ pub fn summarise(
         recording: Some(dir.recording()).filter(|path| path.exists()),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     }
+}
+
+/// The rows of the metrics: of all islands, ordered by generation, then island.
+pub fn rows(reports: &[Vec<Entry>]) -> Vec<metrics::Row> {
+    let entries = reports.iter().flatten();
+    let mut rows: Vec<_> =
+        entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
+    rows.sort_by_key(|row| (row.generation, row.island));
+    rows
 }
 
 /// The island with the best champion, the first of equal ones.
@@ -211,13 +220,4 @@ impl Podium {
         self.best = champion.fitness;
         write_champion(dir, problem, champion)
     }
-}
-
-/// The rows of the metrics: of all islands, ordered by generation, then island.
-pub fn rows(reports: &[Vec<Entry>]) -> Vec<metrics::Row> {
-    let entries = reports.iter().flatten();
-    let mut rows: Vec<_> =
-        entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
-    rows.sort_by_key(|row| (row.generation, row.island));
-    rows
 }

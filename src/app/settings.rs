@@ -116,52 +116,12 @@ mod tests {
 
     #[test]
     fn every_setting_has_a_flag_that_wins_over_a_file() {
-        let flags = [
-            "islands",
-            "--n",
-            "9",
-            "--seed",
-            "9",
-            "--generations",
-            "9",
-            "--population",
-            "9",
-            "--task",
-            "travel",
-            "--profile",
-            "lecture",
-            "--genes",
-            "9",
-            "--max-genes",
-            "9",
-            "--max-links",
-            "9",
-            "--selection",
-            "roulette",
-            "--elites",
-            "9",
-            "--crossover-rate",
-            "0.9",
-            "--point-rate",
-            "0.9",
-            "--point-amount",
-            "0.9",
-            "--shrink-rate",
-            "0.9",
-            "--grow-rate",
-            "0.9",
-            "--migration-interval",
-            "9",
-            "--migrants",
-            "9",
-            "--migration-lag",
-            "9",
-            "--checkpoint-interval",
-            "9",
-            "--threads",
-            "9",
-        ];
-        let parsed = Cli::try_parse_from(flags).expect("these flags exist");
+        let flags = "islands --n 9 --seed 9 --generations 9 --population 9 --task travel --profile lecture \
+            --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
+            --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
+            --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
+            --checkpoint-interval 9 --threads 9";
+        let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");
         let file = toml::Table::try_from(Config::default()).expect("plain data");

@@ -1,6 +1,6 @@
 //! The monitor's process: films what the islands write down, and serves it live. It only looks: a run without
 //! it loses nothing but the film, and a monitor that dies loses nothing at all, since another one makes the
-//! same film anew. [`logs`] reads what the islands wrote, [`cinema`] shows it, and here is when.
+//! same film anew. `logs` reads what the islands wrote, `cinema` films it, and `show` says when.
 
 use super::Failure;
 use super::cli::MonitorArgs;
@@ -9,6 +9,8 @@ use super::cli::MonitorArgs;
 mod cinema;
 #[cfg(feature = "view")]
 mod logs;
+#[cfg(feature = "view")]
+mod show;
 
 /// Records and serves the run in a folder: one that is over, to its end; one that is under way, until it ends
 /// or the launcher or the user stops it.
@@ -17,7 +19,7 @@ mod logs;
 /// If there is no run or nothing to film, another monitor is at it, or the recording cannot be written.
 #[cfg(feature = "view")]
 pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
-    watched::run(args)
+    show::run(args)
 }
 
 /// Says that this program cannot.
@@ -27,156 +29,4 @@ pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
 #[cfg(not(feature = "view"))]
 pub fn run(_: &MonitorArgs) -> Result<(), Failure> {
     Err(Failure::usage("this program was built without the feature “view”, and cannot record"))
-}
-
-#[cfg(feature = "view")]
-mod watched {
-    use super::super::Failure;
-    use super::super::config::Config;
-    use super::super::console::{print, say};
-    use super::super::kinship::{Ear, SERVING, tell};
-    use super::super::result;
-    use super::MonitorArgs;
-    use super::cinema::Cinema;
-    use super::logs::Logs;
-    use crate::store::RunDir;
-    use crate::view::Live;
-    use std::fs::{File, TryLockError};
-    use std::time::Duration;
-
-    /// The monitor looks about so often.
-    const LOOK: Duration = Duration::from_millis(20);
-    /// How much the monitor stands back behind the islands: filming must not cost them evaluations.
-    const NICENESS: i32 = 10;
-    /// The rounds of generations that are shown before a full disk is noticed and a viewer gets to see them.
-    const BATCH: usize = 64;
-
-    pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
-        let ear = match args.parent {
-            Some(parent) => Ear::to(parent)?,
-            None => Ear::to_signals()?,
-        };
-        // Standing back is a courtesy: where it is not to be had, filming goes on.
-        let _ = rustix::process::nice(NICENESS);
-        let dir = RunDir::at(&args.dir);
-        let config = configuration(&dir)?;
-        let launched = args.parent.is_some();
-        let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
-        // Nobody has the time to attach to a run that is over.
-        let live = (launched || dir.is_under_way()?)
-            .then(|| Live { address: args.view_address, ..Live::default() });
-        let folder = if launched { dir.partial() } else { dir.path().to_owned() };
-        let cinema = Cinema::open(&folder, &dir.recording(), live, &config)?;
-        match cinema.address() {
-            Some(address) if launched => tell(&format!("{SERVING}{address}")),
-            Some(address) => print(&format!("watch it live:  rerun {address}")),
-            None => {}
-        }
-        let logs = Logs::of(&dir, config.islands);
-        Show { dir, config, launched, ear, logs, cinema }.run()
-    }
-
-    /// What the run is.
-    fn configuration(dir: &RunDir) -> Result<Config, Failure> {
-        if !dir.config().exists() {
-            let path = dir.path().display();
-            return Err(Failure::usage(format!("there is no run in {path}: it has no run.toml")));
-        }
-        let config = Config::of_run(dir)?;
-        config.check()?;
-        Ok(config)
-    }
-
-    /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while
-    /// it waited for another one to end.
-    fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, Failure> {
-        let mut folder = dir.champions(0);
-        folder.pop();
-        let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
-        let file = File::open(&folder).map_err(failed)?;
-        while !ear.heard_stop() {
-            match file.try_lock() {
-                Ok(()) => return Ok(Some(file)),
-                Err(TryLockError::Error(error)) => return Err(failed(error)),
-                Err(TryLockError::WouldBlock) if launched => std::thread::sleep(LOOK),
-                Err(TryLockError::WouldBlock) => {
-                    let path = dir.path().display();
-                    return Err(Failure::usage(format!("another monitor records {path} already")));
-                }
-            }
-        }
-        Ok(None)
-    }
-
-    struct Show {
-        dir: RunDir,
-        config: Config,
-        launched: bool,
-        ear: Ear,
-        logs: Logs,
-        cinema: Cinema,
-    }
-
-    impl Show {
-        fn run(mut self) -> Result<(), Failure> {
-            let mut last = false;
-            loop {
-                if self.look()? {
-                    continue;
-                }
-                if last {
-                    return self.end();
-                }
-                // What was written before this is read after it.
-                last = self.ear.heard_stop() || !(self.launched || self.dir.is_under_way()?);
-                if !last {
-                    self.cinema.publish()?;
-                    std::thread::sleep(LOOK);
-                }
-            }
-        }
-
-        /// Shows what is there, or a part of it; whether there was something.
-        fn look(&mut self) -> Result<bool, Failure> {
-            for round in 0..BATCH {
-                let sightings = self.logs.next_round();
-                if sightings.is_empty() {
-                    self.cinema.flush()?;
-                    return Ok(round > 0);
-                }
-                sightings.iter().try_for_each(|sighting| self.cinema.show(sighting))?;
-            }
-            self.cinema.flush()?;
-            Ok(true)
-        }
-
-        /// Everything was read.
-        fn end(self) -> Result<(), Failure> {
-            let Self { dir, config, launched, logs, cinema, .. } = self;
-            if launched {
-                return cinema.finish();
-            }
-            let (folder, recording) = (dir.path().display(), dir.recording());
-            if !cinema.has_shown() {
-                return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
-            }
-            let is_over = result::finished(&dir, &config).is_some();
-            let short = logs.first_short_of(config.generations).filter(|_| is_over);
-            if let Some((island, generations)) = short {
-                let news = format!(
-                    "the run in {folder} is over, but the logs of island {island} hold only the first \
-                     {generations} of its {} generations",
-                    config.generations + 1
-                );
-                if recording.exists() {
-                    let news = format!("{news}; {} is left as it was", recording.display());
-                    return Err(Failure::failed(news));
-                }
-                say(&format!("warning: {news}"));
-            }
-            cinema.finish()?;
-            print(&format!("view it:  rerun {}", recording.display()));
-            Ok(())
-        }
-    }
 }

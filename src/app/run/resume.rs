@@ -18,10 +18,7 @@ const AFTERLIFE: Duration = Duration::from_millis(200);
 /// If there is none, or it is under way.
 pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
     if !dir.config().exists() {
-        return Err(Failure::usage(format!(
-            "there is no run in {}: it has no run.toml",
-            dir.path().display()
-        )));
+        return Err(Failure::no_run(dir));
     }
     let watch = Stopwatch::start();
     loop {
@@ -63,9 +60,8 @@ pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
 
 /// The failure of a run that was under way, and how to go on. One that was interrupted says so itself.
 pub fn way_back(failure: Failure, dir: &RunDir) -> Failure {
-    let is_interrupted = failure == Failure::interrupted(&failure.message);
     match require_folder(dir) {
-        _ if is_interrupted => failure,
+        _ if failure.is_interruption() => failure,
         Err(gone) => gone,
         Ok(()) => Failure::failed(format!(
             "{}; the run stops, and nothing is lost; go on with: islands resume {}",

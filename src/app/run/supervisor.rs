@@ -63,14 +63,7 @@ impl<'a> Supervisor<'a> {
             dir,
             harbour,
         };
-        supervisor.chronicle.tell(&format!(
-            "{} islands × {} creatures evolve for {} generations, seed {}, in {}",
-            config.islands,
-            config.population,
-            config.generations,
-            config.seed.unwrap_or_default(),
-            dir.path().display()
-        ));
+        supervisor.chronicle.tell(&overture(config, dir));
         for island in 0..config.islands {
             supervisor.crew.start(Role::Island(island))?;
         }
@@ -258,4 +251,14 @@ impl<'a> Supervisor<'a> {
             self.chronicle.warn(&format!("the monitor failed ({status}); the film has gaps"));
         }
     }
+}
+
+/// What a run begins with.
+fn overture(config: &Config, dir: &RunDir) -> String {
+    let Config { islands, population, generations, seed, .. } = config;
+    format!(
+        "{islands} islands × {population} creatures evolve for {generations} generations, seed {}, in {}",
+        seed.unwrap_or_default(),
+        dir.path().display()
+    )
 }

@@ -17,7 +17,7 @@ use std::path::Path;
 const FREE: [&str; 4] = ["best_genome", "run_dir", "recording", "version"];
 
 /// What stands in the place of `summary.json`.
-pub enum Summary {
+pub enum SummaryFile {
     /// There is none.
     Missing,
     /// Something else, and why it is none.
@@ -26,7 +26,7 @@ pub enum Summary {
     Whole(Map<String, Value>),
 }
 
-impl Summary {
+impl SummaryFile {
     /// Reads it.
     pub fn read(dir: &RunDir) -> Self {
         let path = dir.summary();
@@ -82,7 +82,7 @@ pub fn check(
     dir: &RunDir,
     terms: &Terms,
     records: &Records,
-    summary: &Summary,
+    summary: &SummaryFile,
     sound: bool,
 ) -> (Option<String>, Vec<Check>) {
     let finals = records.finals(terms);
@@ -96,7 +96,7 @@ pub fn check(
     (digest, checks)
 }
 
-fn check_digest(dir: &RunDir, found: Option<&str>, summary: &Summary, states: usize) -> Check {
+fn check_digest(dir: &RunDir, found: Option<&str>, summary: &SummaryFile, states: usize) -> Check {
     let mut check = Check::of("digest").checked(counted(states, "population"));
     let claimed = summary.says("digest").and_then(Value::as_str);
     match (found, claimed) {
@@ -116,14 +116,14 @@ fn check_summary(
     terms: &Terms,
     finals: Option<&[Island<Gene>]>,
     records: &Records,
-    summary: &Summary,
+    summary: &SummaryFile,
 ) -> Check {
     let mut check = Check::of("summary").checked("summary.json");
     match (summary, finals) {
-        (Summary::Missing, _) => check.damaged("it is missing"),
-        (Summary::Damaged(reason), _) => check.damaged(reason),
-        (Summary::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
-        (Summary::Whole(said), Some(finals)) => {
+        (SummaryFile::Missing, _) => check.damaged("it is missing"),
+        (SummaryFile::Damaged(reason), _) => check.damaged(reason),
+        (SummaryFile::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
+        (SummaryFile::Whole(said), Some(finals)) => {
             let right = result::summarise(dir, terms.config, finals, &records.reports);
             let right = serde_json::to_value(right).expect("a summary is plain data");
             let claims = right.as_object().into_iter().flatten();

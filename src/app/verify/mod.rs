@@ -66,19 +66,15 @@ fn pool(args: &VerifyArgs) -> Result<rayon::ThreadPool, Failure> {
 
 /// The configuration of the run in a folder, or what is wrong with it.
 fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
-    let none = || {
-        Failure::usage(format!(
-            "there is no run in {}: name the folder of one, such as runs/walk-seed7",
-            dir.path().display()
-        ))
-    };
     // Opening a pipe would wait for its other end.
     if !dir.path().is_dir() {
-        return Err(none());
+        return Err(Failure::no_run(dir));
     }
     at_rest(dir)?;
     match file::read_text(&dir.config(), SMALL_FILE_BYTES_MAX) {
-        Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => Err(none()),
+        Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
+            Err(Failure::no_run(dir))
+        }
         Err(error) => Ok(Err(error.to_string())),
         Ok(text) => Ok(launched(&text)
             .map_err(|reason| format!("{} is damaged: {reason}", dir.config().display()))),
@@ -108,11 +104,11 @@ fn launched(text: &str) -> Result<Config, String> {
 }
 
 fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
-    let summary = claims::Summary::read(dir);
+    let summary = claims::SummaryFile::read(dir);
     let terms = Terms::new(config, summary.is_of_the_end(config.generations));
     let (records, mut checks) = Records::read(dir, &terms);
     let sound = checks.iter().all(Check::is_fine);
-    checks.insert(0, version(&terms));
+    checks.insert(0, check_version(&terms));
     let mut digest = None;
     if terms.finished {
         let (found, claims) = claims::check(dir, &terms, &records, &summary, sound);
@@ -131,7 +127,7 @@ fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
 }
 
 /// Another version may compute otherwise; whether it does, simulating again shows.
-fn version(terms: &Terms) -> Check {
+fn check_version(terms: &Terms) -> Check {
     let shown: String = rules::version(terms.config).chars().take(24).collect();
     let mut check = Check::of("run.toml").checked(format!("version {shown}"));
     if !terms.is_of_this_version() {

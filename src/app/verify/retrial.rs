@@ -22,7 +22,7 @@ const LINE_EVERY_S: f64 = 5.0;
 /// That somebody is as good as a file says.
 #[derive(Debug, Clone, Copy)]
 pub struct Claim<'a> {
-    /// Who: a champion, an individual or a migrant.
+    /// Who: a champion, a resident or a migrant.
     pub who: &'static str,
     /// On which island.
     pub island: u32,
