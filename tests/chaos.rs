@@ -4,14 +4,12 @@
 
 #![expect(clippy::print_stdout, reason = "what a long round did is worth knowing")]
 
-use crate::support::{Running, World, is_alive, try_signal, until};
+use crate::support::{Running, World, checkpoints, is_alive, try_signal, until};
 use islands::rng::Stream;
 use islands::store::RunDir;
 use rand::{RngExt, SeedableRng};
-use std::cmp::Reverse;
 use std::fmt;
 use std::fs;
-use std::path::PathBuf;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -186,13 +184,4 @@ impl Chaos {
         }
         self.tally.islands += u32::from(try_signal(pid, "KILL"));
     }
-}
-
-/// An island's checkpoints, the newest first.
-fn checkpoints(dir: &RunDir, island: u32) -> Vec<PathBuf> {
-    let generation = |path: &PathBuf| path.file_stem()?.to_str()?.parse::<u32>().ok();
-    let files = fs::read_dir(dir.checkpoints(island)).into_iter().flatten();
-    let mut checkpoints: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
-    checkpoints.sort_by_key(|path| Reverse(generation(path)));
-    checkpoints
 }

@@ -222,7 +222,7 @@ fn a_run_that_died_in_its_first_generation_starts_anew() {
 }
 
 #[test]
-fn a_signal_to_a_whole_run_is_the_launchers_alone() {
+fn islands_that_are_told_to_terminate_are_started_again_and_the_launcher_alone_ends_the_run() {
     let world = World::new();
     let run = start(&world, ENDLESS, 0);
     for pid in run.children() {

@@ -1,6 +1,6 @@
 //! Starting the program in a world of its own, and looking at what it leaves behind.
 
-use islands::store::{Entry, RecordLog, RunDir};
+use islands::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -185,11 +185,6 @@ impl Running {
         signal(self.pid(), name);
     }
 
-    /// Whether it has come to its end.
-    pub fn has_ended(&mut self) -> bool {
-        self.0.as_mut().unwrap().try_wait().unwrap().is_some()
-    }
-
     /// Waits for its end.
     pub fn wait(mut self) -> Ending {
         self.0.take().unwrap().wait_with_output().unwrap().into()
@@ -253,6 +248,12 @@ pub fn await_generation(dir: &RunDir, islands: u32, generation: u32) {
         RecordLog::<Entry>::read(&dir.reports(island)).map_or(0, |log| log.records.len() as u32)
     };
     until("every island has evolved", || (0..islands).all(|i| generations(i) > generation));
+}
+
+/// The checkpoints of an island of a run, whole or not, the newest first.
+pub fn checkpoints(dir: &RunDir, island: u32) -> Vec<PathBuf> {
+    let generations = Checkpoints::of(dir, island).generations().unwrap_or_default();
+    generations.into_iter().map(|generation| dir.checkpoint(island, generation)).collect()
 }
 
 /// Waits until something is so.

@@ -1,6 +1,6 @@
 //! Any process of a run may die at any moment: the run goes on, and ends in the same bits.
 
-use crate::support::{Running, World, await_generation, signal, try_signal, until};
+use crate::support::{Running, World, await_generation, checkpoints, signal, try_signal, until};
 use islands::store::{RunDir, checkpoint};
 use std::fs;
 
@@ -104,17 +104,6 @@ fn after_harm(settings: &str, harm: impl Fn(&RunDir)) -> (String, String, String
         "{log}"
     );
     (expected, ending.json()["digest"].as_str().unwrap().to_owned(), ending.stderr)
-}
-
-/// The newest two checkpoints of an island, the newest first.
-fn checkpoints(dir: &RunDir, island: u32) -> [std::path::PathBuf; 2] {
-    let files = fs::read_dir(dir.checkpoints(island)).unwrap().map(|file| file.unwrap().path());
-    let number = |path: &std::path::PathBuf| -> u32 {
-        path.file_stem().unwrap().to_str().unwrap().parse().unwrap()
-    };
-    let mut files: Vec<_> = files.collect();
-    files.sort_by_key(|path| std::cmp::Reverse(number(path)));
-    files.try_into().unwrap()
 }
 
 fn cut(path: &std::path::Path) {

@@ -5,24 +5,12 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Writes a file: to a temporary one beside it, made durable, then renamed; so that neither a crash nor a
-/// full disk leaves half of it under its name.
+/// Writes a file: to a temporary one in `scratch`, a folder of the same file system, made durable, then renamed;
+/// so that neither a crash nor a full disk leaves half of it under its name, or anything else beside it.
 ///
 /// # Errors
 /// If the file system refuses; an older file of that name is then still whole.
 pub fn write(
-    path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), StoreError> {
-    write_by_way_of(folder_of(path), path, fill)
-}
-
-/// The same by way of a temporary file in `scratch`, a folder of the same file system: beside `path` there is
-/// then never anything else, whenever the process is killed.
-///
-/// # Errors
-/// The same.
-pub fn write_by_way_of(
     scratch: &Path,
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
@@ -49,8 +37,9 @@ mod tests {
     fn a_write_that_fails_leaves_the_old_file_and_nothing_else() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let path = folder.path().join("file");
-        write(&path, |out| out.write_all(b"old")).expect("the folder is writable");
-        let failure = write(&path, |out| {
+        let old = write(folder.path(), &path, |out| out.write_all(b"old"));
+        old.expect("the folder is writable");
+        let failure = write(folder.path(), &path, |out| {
             out.write_all(b"half")?;
             Err(std::io::Error::other("disk full"))
         });

@@ -33,7 +33,7 @@ pub fn save<G: Gene>(
     checkpoint: &Checkpoint<G>,
 ) -> Result<(), StoreError> {
     let bytes = to_bytes(checkpoint);
-    atomic::write_by_way_of(scratch, path, |out| out.write_all(&bytes))
+    atomic::write(scratch, path, |out| out.write_all(&bytes))
 }
 
 /// Loads what [`save`] wrote.

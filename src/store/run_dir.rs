@@ -85,7 +85,7 @@ impl RunDir {
         path: &Path,
         fill: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
     ) -> Result<(), StoreError> {
-        atomic::write_by_way_of(&self.partial(), path, fill)
+        atomic::write(&self.partial(), path, fill)
     }
 
     /// The folder itself.

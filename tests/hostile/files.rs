@@ -27,8 +27,8 @@ fn unfriendly(world: &World) -> Vec<&'static str> {
 
 /// How the program ends, which it must soon.
 fn ending(world: &World, arguments: &str) -> Ending {
-    let mut running = world.start(arguments);
-    until(&format!("islands {arguments} has ended"), || running.has_ended());
+    let running = world.start(arguments);
+    until(&format!("islands {arguments} has ended"), || !running.is_alive());
     running.wait()
 }
 
