@@ -8,7 +8,7 @@ pub fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// Prints a line of the result, on standard output.
+/// Prints a line of the result, on standard output. Nobody reading it is no reason to fail, either.
 pub fn print(line: &str) {
     let _ = writeln!(std::io::stdout().lock(), "{line}");
 }

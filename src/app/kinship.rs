@@ -168,9 +168,8 @@ impl Ear {
         let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
         let told = ear.clone();
         std::thread::spawn(move || {
-            let mut nothing = Vec::new();
             // The end of the input is the word; an error ends it as well.
-            let _ = std::io::stdin().lock().read_to_end(&mut nothing);
+            let _ = std::io::copy(&mut std::io::stdin().lock(), &mut std::io::sink());
             told.0.store(ASKED, Ordering::Release);
         });
         Ok(ear)

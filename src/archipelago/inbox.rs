@@ -45,7 +45,8 @@ impl<G> Inbox<G> {
     }
 
     /// The inbox with another window than [`WINDOW`], at least 1 epoch.
-    pub fn with_window(self, window: u32) -> Self {
+    #[cfg(test)]
+    pub(super) fn with_window(self, window: u32) -> Self {
         Self { window, ..self }
     }
 
