@@ -1,6 +1,7 @@
 //! A run that was interrupted or killed goes on, to the result that it would have had.
 
 use crate::support::{Running, TINY, World, await_generation, is_alive, run_id, signal, until};
+use islands::formats::metrics;
 use islands::store::{Checkpoint, Entry, RecordLog, RunDir, checkpoint};
 use serde_json::Value;
 use std::fs;
@@ -38,6 +39,8 @@ fn a_run_that_is_interrupted_saves_where_it_is_and_says_how_to_go_on() {
             checkpoint::load(&dir.checkpoint(island, last)).unwrap();
         assert_eq!(saved.island.generation, last);
     }
+    let rows = metrics::read(fs::File::open(dir.metrics()).unwrap()).unwrap();
+    assert!(rows.len() >= 4, "what there is can be plotted: {rows:?}");
     assert!(!dir.summary().exists() && !dir.partial().exists());
     world.assert_left_nothing();
 }

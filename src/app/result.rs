@@ -87,10 +87,7 @@ pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
 /// If an island's files are missing or damaged, or ours cannot be written.
 pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
-    let reports: Vec<Vec<Entry>> = (0..config.islands)
-        .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
-        .collect::<Result<_, StoreError>>()?;
-    dir.write(&dir.metrics(), |out| metrics::write(&rows(&reports), true, out))?;
+    let reports = write_metrics(dir, config)?;
     write_champion(dir, &config.problem(), &best(&islands).champion)?;
     let summary = summarise(dir, config, &islands, &reports);
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
@@ -139,6 +136,18 @@ pub fn rows(reports: &[Vec<Entry>]) -> Vec<metrics::Row> {
         entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
     rows.sort_by_key(|row| (row.generation, row.island));
     rows
+}
+
+/// Writes what all islands have reported so far as the run's metrics, and returns it, island by island.
+///
+/// # Errors
+/// If the reports cannot be read, or the metrics not written.
+pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, StoreError> {
+    let reports: Vec<Vec<Entry>> = (0..config.islands)
+        .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
+        .collect::<Result<_, StoreError>>()?;
+    dir.write(&dir.metrics(), |out| metrics::write(&rows(&reports), true, out))?;
+    Ok(reports)
 }
 
 /// The island with the best champion, the first of equal ones.

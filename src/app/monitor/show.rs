@@ -58,16 +58,17 @@ fn configuration(dir: &RunDir) -> Result<Config, Failure> {
 }
 
 /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while
-/// it waited for another one to end.
+/// another one was still at it. Who was stopped before it began films all the same: it came late.
 fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, Failure> {
     let mut folder = dir.champions(0);
     folder.pop();
     let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
     let file = File::open(&folder).map_err(failed)?;
-    while !ear.heard_stop() {
+    loop {
         match file.try_lock() {
             Ok(()) => return Ok(Some(file)),
             Err(TryLockError::Error(error)) => return Err(failed(error)),
+            Err(TryLockError::WouldBlock) if ear.heard_stop() => return Ok(None),
             Err(TryLockError::WouldBlock) if launched => std::thread::sleep(LOOK),
             Err(TryLockError::WouldBlock) => {
                 let path = dir.path().display();
@@ -75,7 +76,6 @@ fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, F
             }
         }
     }
-    Ok(None)
 }
 
 /// A run that is being shown.

@@ -84,6 +84,10 @@ impl Launch {
         dir.write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
         let supervised = Supervisor::launch(&config, &dir, &domain, &harbour, ear, output)
             .and_then(Supervisor::see_to_the_end);
+        if supervised.is_err() {
+            // What there is so far can be plotted; if not, there is a worse failure to tell of.
+            let _ = result::write_metrics(&dir, &config);
+        }
         let summary = supervised.and_then(|()| result::gather(&dir, &config));
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
         let closed = harbour.close();
