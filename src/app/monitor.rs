@@ -94,10 +94,12 @@ mod watched {
         folder.pop();
         let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
         let file = File::open(&folder).map_err(failed)?;
-        while !ear.heard_stop() {
+        loop {
             match file.try_lock() {
                 Ok(()) => return Ok(Some(file)),
                 Err(TryLockError::Error(error)) => return Err(failed(error)),
+                // Who is asked to stop at its birth films all the same: its predecessor died over the film's end.
+                Err(TryLockError::WouldBlock) if ear.heard_stop() => return Ok(None),
                 Err(TryLockError::WouldBlock) if launched => std::thread::sleep(LOOK),
                 Err(TryLockError::WouldBlock) => {
                     let path = dir.path().display();
@@ -105,7 +107,6 @@ mod watched {
                 }
             }
         }
-        Ok(None)
     }
 
     struct Show {
