@@ -90,7 +90,8 @@ fn save(times: usize) -> (f64, f64) {
     let config = Config { seed: Some(SEED), islands: 1, ..Config::default() };
     let archipelago = config.archipelago();
     let dir = RunDir::at(folder.path().join("run"));
-    let _claim = dir.create(1).expect("the folder is writable");
+    let claim = dir.create().expect("the folder is writable");
+    claim.make_folders(1).expect("the folder is writable");
     let restored = Logbook::open(&dir, &archipelago, 0, &config.settings());
     let mut logbook = restored.expect("the folder is writable").logbook;
     let problem = config.problem();

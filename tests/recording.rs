@@ -112,6 +112,21 @@ fn a_film_that_is_made_of_a_run_that_is_over_is_the_one_that_was_made_while_it_w
 }
 
 #[test]
+fn a_monitor_that_is_killed_after_the_islands_have_finished_still_leaves_the_film() {
+    let world = World::new();
+    let run = world.start(&format!("--n 1 --seed 3 --out run --json {TINY}"));
+    let monitor = run.child("monitor");
+    signal(monitor, "STOP");
+    let is_awaited = || world.read("run/run.log").contains("the monitor films the last champions");
+    until("it alone is waited for", is_awaited);
+    signal(monitor, "KILL");
+    let ending = run.wait();
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    assert_eq!(ending.json()["recording"], "run/recording.rrd");
+    world.assert_left_nothing();
+}
+
+#[test]
 fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() {
     let world = World::new();
     let endless = "--population 4 --generations 1000000 --genes 1 --migration-interval 1";

@@ -225,6 +225,24 @@ fn a_run_that_died_in_its_first_generation_starts_anew() {
 }
 
 #[test]
+fn a_folder_whose_launcher_died_before_it_had_said_what_the_run_is_can_be_used_again() {
+    let world = World::new();
+    fs::create_dir_all(world.path("run/.partial")).unwrap();
+    world.write("run/.partial/.tmpX", "half a configuration");
+    assert!(world.refusal("resume run").contains("there is no run in run"));
+    world.json(&format!("--n 1 --seed 3 --out run --no-monitor --json {TINY}"));
+    assert!(!RunDir::at(world.path("run")).partial().exists());
+    // What is more than that is no launcher's.
+    for folder in ["theirs", "theirs/.partial", "theirs/champions"] {
+        fs::create_dir(world.path(folder)).unwrap();
+    }
+    world.write("theirs/.partial/precious", "a file");
+    let said = world.refusal("--n 1 --out theirs");
+    assert!(said.contains("cannot use theirs: it is not empty"), "{said}");
+    assert_eq!(world.read("theirs/.partial/precious"), "a file");
+}
+
+#[test]
 fn islands_that_are_told_to_terminate_are_started_again_and_the_launcher_alone_ends_the_run() {
     let world = World::new();
     let run = start(&world, ENDLESS, 0);

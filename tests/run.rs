@@ -217,3 +217,27 @@ fn a_seed_that_was_picked_is_printed_and_reproduces_the_run() {
     let again = world.digest("again", &format!("--n 1 --seed {seed} {TINY}"));
     assert_eq!(again, run["digest"]);
 }
+
+#[test]
+fn a_runs_folder_may_have_any_name_that_is_text() {
+    use std::ffi::OsString;
+    use std::os::unix::ffi::OsStringExt;
+    let world = World::new();
+    let run = |name: &[u8]| {
+        let out = OsString::from_vec([b"--out=", name].concat());
+        let settings = format!("--n 1 --seed 3 --quiet {TINY}");
+        world.command(&settings).arg(out).output().unwrap()
+    };
+    assert!(run(b"--parent=1").status.success());
+    assert!(world.path("--parent=1/summary.json").exists());
+    let before = world.files();
+    let refused = run(b"not \xff text");
+    assert_eq!(refused.status.code(), Some(2), "{refused:?}");
+    let said = String::from_utf8(refused.stderr).unwrap();
+    assert_eq!(
+        said,
+        "error: the folder's name not \u{fffd} text is not UTF-8: choose another one\n"
+    );
+    assert_eq!(world.files(), before);
+    world.assert_left_nothing();
+}

@@ -44,11 +44,20 @@ fn command() -> clap::Command {
         .filter(|name| !FREE.contains(&name.replace('_', "-").as_str()))
         .collect();
     Cli::command().mut_subcommand("resume", |resume| {
-        resume.mut_args(|arg| match fixed.iter().any(|name| arg.get_id() == name.as_str()) {
-            true => arg.hide(true),
-            false => arg,
+        resume.mut_args(|arg| match arg.get_id().as_str() {
+            name if fixed.iter().any(|fixed| fixed == name) => arg.hide(true),
+            name if FREE.contains(&name) => as_in_the_run(arg),
+            _ => arg,
         })
     })
+}
+
+/// A setting that stays as the run has it, whatever a new run's default is.
+fn as_in_the_run(arg: clap::Arg) -> clap::Arg {
+    let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
+    let what = help.split(" [default: ").next().unwrap_or_default();
+    let help = format!("{what} [default: as in the run]");
+    arg.help(help)
 }
 
 /// What to do; without a word, `run`.
@@ -68,7 +77,7 @@ pub enum Command {
     Monitor(MonitorArgs),
     /// Check that a run's folder holds what it claims, by simulating its champions again
     Verify(VerifyArgs),
-    /// Remove what crashed runs left in shared memory; runs under way are not touched
+    /// Remove what crashed runs left in shared memory and the temporary folder; runs under way are not touched
     Clean(CleanArgs),
     /// One island of a run; `run` starts them
     #[command(hide = true)]
@@ -92,6 +101,16 @@ pub struct RunArgs {
 
 /// Going on.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "The result is the one that the run would have had undisturbed. What would change it, such as
+another seed, is refused; a finished run with as many generations as it has prints its result again.
+
+Exit codes: 0 done, 1 failed, 2 there is no run, it is under way or cannot go on so, 130 interrupted.
+
+Examples:
+  islands resume runs/walk-seed7                     goes on, to the same digest
+  islands resume runs/walk-seed7 --generations 200   a finished run, made longer"
+)]
 pub struct ResumeArgs {
     /// Folder of a run that was interrupted, crashed or has finished
     #[arg(value_name = "RUN_DIR")]
@@ -257,6 +276,18 @@ pub struct IslandArgs {
 mod tests {
     use super::super::config::Config;
     use super::*;
+
+    #[test]
+    fn the_help_of_resume_names_no_default_of_a_new_run() {
+        let command = command();
+        let resume = command.find_subcommand("resume").expect("there is one");
+        for name in FREE {
+            let arg = resume.get_arguments().find(|arg| arg.get_id() == name).expect("it is free");
+            let help = arg.get_help().expect("it has one").to_string();
+            assert!(help.ends_with("[default: as in the run]"), "{name}: {help}");
+            assert_eq!(help.matches("default").count(), 1, "{name}: {help}");
+        }
+    }
 
     #[test]
     fn the_help_names_the_defaults_that_hold() {

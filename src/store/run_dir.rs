@@ -38,19 +38,24 @@ impl RunDir {
         Self(path.into())
     }
 
-    /// Makes the folder and those in it, for this user only, and claims it. It may exist, but only empty.
+    /// Makes the folder, for this user only, and claims it. It may exist, but only empty, or as a launcher left it
+    /// that was killed before it had written the configuration: that is what makes it a run's. After that,
+    /// [`Claim::make_folders`] makes the others.
     ///
     /// # Errors
     /// If it cannot be made, has something in it or is another launcher's.
-    pub fn create(&self, islands: u32) -> Result<Claim, StoreError> {
+    pub fn create(&self) -> Result<Claim, StoreError> {
         private().create(&self.0).map_err(StoreError::io("make the folder", &self.0))?;
-        let claim = self.claim()?;
+        let folder = self.lock()?;
         let mut entries = std::fs::read_dir(&self.0).map_err(StoreError::io("read", &self.0))?;
-        if entries.next().is_some() {
+        let partial = self.partial();
+        if entries.any(|entry| !entry.is_ok_and(|entry| entry.path() == partial)) {
             let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
         }
-        claim.make_folders(islands)?;
+        make(&partial)?;
+        let claim = Claim { dir: self.clone(), _folder: folder };
+        claim.sweep();
         Ok(claim)
     }
 
@@ -59,9 +64,14 @@ impl RunDir {
     /// # Errors
     /// If there is no such folder, or another launcher has it.
     pub fn claim(&self) -> Result<Claim, StoreError> {
+        Ok(Claim { dir: self.clone(), _folder: self.lock()? })
+    }
+
+    /// Locks the folder. What is in it may be somebody else's: only a claim, once dropped, removes any of it.
+    fn lock(&self) -> Result<File, StoreError> {
         let folder = file::open_folder(&self.0)?;
         match folder.try_lock() {
-            Ok(()) => Ok(Claim { dir: self.clone(), _folder: folder }),
+            Ok(()) => Ok(folder),
             Err(TryLockError::WouldBlock) => Err(StoreError::UnderWay { path: self.0.clone() }),
             Err(TryLockError::Error(source)) => Err(StoreError::io("lock", &self.0)(source)),
         }

@@ -53,6 +53,14 @@ impl Domain {
         remains::abandoned(&SharedMemory::own())
     }
 
+    /// Removes what can be removed of it.
+    pub fn remove_abandoned() {
+        for remains in Self::abandoned() {
+            // Another launcher may be at it, and what cannot be removed is in nobody's way.
+            let _ = remains.remove();
+        }
+    }
+
     /// Claims the domain and makes its folder, for this user only.
     ///
     /// # Errors

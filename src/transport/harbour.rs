@@ -40,10 +40,7 @@ impl<G: Gene> Harbour<G> {
     /// made.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
-        for remains in Domain::abandoned() {
-            // Another launcher may be at it, and what cannot be removed is in nobody's way.
-            let _ = remains.remove();
-        }
+        Domain::remove_abandoned();
         domain.check_space(plan.bytes::<G>())?;
         let claim = domain.create()?;
         // From here on dropping it removes what was made, also where the rest of the making fails.

@@ -141,7 +141,8 @@ pub fn metrics_csv(data: &[u8]) {
 pub fn logbook(data: &[u8]) {
     let folder = pieces::folder();
     let dir = RunDir::at(folder.path().join("run"));
-    let claim = dir.create(2).expect("it is new");
+    let claim = dir.create().expect("it is new");
+    claim.make_folders(2).expect("the folder is writable");
     pieces::lay_out(&dir, data);
     let opened = Logbook::<Gene>::open(&dir, &archipelago(), 0, pieces::SETTINGS);
     drop(claim);

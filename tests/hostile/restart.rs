@@ -35,7 +35,7 @@ impl Shelf {
     /// Island 0 of a run of [`seeds::steps`].
     fn of_steps() -> Self {
         let shelf = Self::new(archipelago(), SETTINGS.to_owned());
-        let claim = shelf.dir().create(2).unwrap();
+        let claim = create(&shelf.dir(), 2).unwrap();
         let mut logbook = shelf.open().unwrap().logbook;
         for step in seeds::steps() {
             logbook.record(&step, 0.5).unwrap();
@@ -58,7 +58,7 @@ impl Shelf {
         };
         let bytes = files(from).map(|path| fs::read(path).unwrap());
         self.files = files(&self.dir()).zip(bytes).collect();
-        drop(self.reopen().or_else(|_| self.dir().create(2)).unwrap());
+        drop(self.reopen().or_else(|_| create(&self.dir(), 2)).unwrap());
         self.put_back();
         self
     }
@@ -236,9 +236,16 @@ fn a_run_directory_that_is_a_pipe_is_not_waited_for() {
     let pipe = home.path().join("pipe");
     rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, rustix::fs::Mode::RWXU).unwrap();
     let dir = RunDir::at(&pipe);
-    assert!(dir.create(1).is_err());
+    assert!(dir.create().is_err());
     assert!(reopen(&dir, 1).is_err());
     assert!(dir.is_under_way().is_err());
+}
+
+/// As a new run makes its folder.
+fn create(dir: &RunDir, islands: u32) -> Result<Claim, StoreError> {
+    let claim = dir.create()?;
+    claim.make_folders(islands)?;
+    Ok(claim)
 }
 
 /// As a run that goes on opens its folder.

@@ -146,17 +146,21 @@ impl Crew {
     fn arguments(&self, role: Role) -> Vec<String> {
         let dir = self.dir.path().display().to_string();
         let parent = format!("--parent={}", std::process::id());
-        match role {
+        let own = match role {
             Role::Island(index) => {
                 let threads = threads_of(&self.config, index);
-                let own = [format!("--index={index}"), format!("--threads={threads}")];
-                ["island".to_owned(), dir].into_iter().chain(own).chain([parent]).collect()
+                vec![
+                    "island".to_owned(),
+                    format!("--index={index}"),
+                    format!("--threads={threads}"),
+                ]
             }
             Role::Monitor => {
-                let address = format!("--view-address={}", self.view_address);
-                vec!["monitor".to_owned(), dir, address, parent]
+                vec!["monitor".to_owned(), format!("--view-address={}", self.view_address)]
             }
-        }
+        };
+        // The folder's name may look like a flag.
+        own.into_iter().chain([parent, "--".to_owned(), dir]).collect()
     }
 }
 

@@ -34,16 +34,19 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     keep_private();
     let config = resolve(args)?;
     let ear = Ear::to_signals()?;
+    let dir = run_dir(args.out.as_deref(), &config);
+    require_text(&dir)?;
     let domain = config.domain()?;
     let harbour = Harbour::create(&domain, &config.archipelago())?;
-    let dir = run_dir(args.out.as_deref(), &config);
-    let claim = dir.create(config.islands).map_err(|error| {
+    let claim = dir.create().map_err(|error| {
         let go_on = match dir.config().exists() {
             true => format!(", or go on with it: islands resume {}", dir.path().display()),
             false => String::new(),
         };
         Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
     })?;
+    write_config(&dir, &config)?;
+    claim.make_folders(config.islands)?;
     Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
 }
 
@@ -54,10 +57,13 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
 pub fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     keep_private();
     let dir = RunDir::at(&args.dir);
+    require_text(&dir)?;
     let ear = Ear::to_signals()?;
     let claim = resume::claim(&dir)?;
     let mut config = resume::config(&dir, &args.settings)?;
     if let Some(summary) = result::finished(&dir, &config) {
+        // Its launcher may have been killed over its last words.
+        Domain::remove_abandoned();
         present(&summary, &args.output);
         return Ok(());
     }
@@ -65,6 +71,7 @@ pub fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let domain = config.domain()?;
     let harbour = Harbour::create(&domain, &config.archipelago())?;
     claim.make_folders(config.islands)?;
+    write_config(&dir, &config)?;
     Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
 }
 
@@ -81,7 +88,6 @@ struct Launch {
 impl Launch {
     fn go(self, output: &OutputArgs) -> Result<(), Failure> {
         let Self { config, dir, claim, domain, harbour, ear } = self;
-        dir.write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?;
         let supervised = Supervisor::launch(&config, &dir, &domain, &harbour, ear, output)
             .and_then(Supervisor::see_to_the_end);
         if supervised.is_err() {
@@ -94,6 +100,21 @@ impl Launch {
         drop(claim);
         present(&summary?, output);
         Ok(closed?)
+    }
+}
+
+fn write_config(dir: &RunDir, config: &Config) -> Result<(), Failure> {
+    Ok(dir.write(&dir.config(), |out| out.write_all(config.to_toml().as_bytes()))?)
+}
+
+/// JSON and command lines say where a run is, as text.
+fn require_text(dir: &RunDir) -> Result<(), Failure> {
+    match dir.path().to_str() {
+        Some(_) => Ok(()),
+        None => Err(Failure::usage(format!(
+            "the folder's name {} is not UTF-8: choose another one",
+            dir.path().display()
+        ))),
     }
 }
 
