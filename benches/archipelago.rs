@@ -14,8 +14,10 @@
 
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
+mod program;
+
+use program::median;
 use serde_json::Value;
-use std::process::{Command, Stdio};
 
 const ISLANDS: [usize; 3] = [1, 2, 4];
 const THREADS: [usize; 3] = [1, 2, 4];
@@ -79,24 +81,14 @@ fn main() {
 }
 
 fn run(islands: usize, threads: usize, budget: Budget) -> Value {
-    let folder = tempfile::tempdir().expect("there is a temporary folder");
-    let output = Command::new(env!("CARGO_BIN_EXE_islands"))
-        .args(["--json", "--no-monitor", "--quiet"])
-        .arg(format!("--n={islands}"))
-        .arg(format!("--threads={threads}"))
-        .arg(format!("--seed={SEED}"))
-        .arg(format!("--population={}", budget.creatures / islands))
-        .arg(format!("--generations={}", budget.generations))
-        .arg("--migration-interval=1")
-        .arg("--out")
-        .arg(folder.path())
-        .stderr(Stdio::inherit())
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{}", output.status);
-    let text = String::from_utf8(output.stdout).expect("it prints text");
-    let last = text.lines().last().expect("it prints its result");
-    serde_json::from_str(last).expect("its result is JSON")
+    program::run(&[
+        format!("--n={islands}"),
+        format!("--threads={threads}"),
+        format!("--seed={SEED}"),
+        format!("--population={}", budget.creatures / islands),
+        format!("--generations={}", budget.generations),
+        "--migration-interval=1".to_owned(),
+    ])
 }
 
 fn print(settings: &[Setting], Budget { creatures, generations }: Budget) {
@@ -129,10 +121,4 @@ fn processor_ms_of_children() -> f64 {
     let (_, fields) = stat.rsplit_once(')').expect("the second field is in parentheses");
     let ticks = fields.split_whitespace().skip(13).take(2).map(|field| field.parse::<f64>());
     ticks.map(|ticks| ticks.expect("it is a number") * TICK_MS).sum()
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
 }

@@ -10,11 +10,13 @@
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 #![expect(clippy::disallowed_methods, reason = "a bench reads the clock")]
 
+mod program;
+
 use islands::app::config::Config;
 use islands::archipelago::{Step, island};
 use islands::store::{Logbook, RunDir};
+use program::median;
 use serde_json::Value;
-use std::process::{Command, Stdio};
 use std::time::Instant;
 
 const ROUNDS: usize = 7;
@@ -65,28 +67,19 @@ fn main() {
 }
 
 fn run(checkpoint_interval: u32, generations: u32, settings: &[&str]) -> Value {
-    let folder = tempfile::tempdir().expect("there is a temporary folder");
-    let output = Command::new(env!("CARGO_BIN_EXE_islands"))
-        .args(["--json", "--no-monitor", "--quiet"])
-        .arg(format!("--seed={SEED}"))
-        .arg(format!("--generations={generations}"))
-        .arg(format!("--checkpoint-interval={checkpoint_interval}"))
-        .args(settings)
-        .arg("--out")
-        .arg(folder.path())
-        .stderr(Stdio::inherit())
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{}", output.status);
-    let text = String::from_utf8(output.stdout).expect("it prints text");
-    let last = text.lines().last().expect("it prints its result");
-    serde_json::from_str(last).expect("its result is JSON")
+    let own = [
+        format!("--seed={SEED}"),
+        format!("--generations={generations}"),
+        format!("--checkpoint-interval={checkpoint_interval}"),
+    ];
+    program::run(
+        &own.into_iter().chain(settings.iter().map(ToString::to_string)).collect::<Vec<_>>(),
+    )
 }
 
 /// Milliseconds that it takes to save an island with default settings, and to record its generation.
 fn save(times: usize) -> (f64, f64) {
-    // In the working folder, which is on a disk, as runs are.
-    let folder = tempfile::tempdir_in(".").expect("the working folder is writable");
+    let folder = program::folder();
     let config = Config { seed: Some(SEED), islands: 1, ..Config::default() };
     let archipelago = config.archipelago();
     let dir = RunDir::at(folder.path().join("run"));
@@ -113,10 +106,4 @@ fn save(times: usize) -> (f64, f64) {
 
 fn number(summary: &Value, name: &str) -> f64 {
     summary[name].as_f64().expect("a summary has this number")
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted[sorted.len() / 2]
 }

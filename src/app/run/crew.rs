@@ -3,7 +3,7 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::Stopwatch;
-use super::super::kinship::{Kin, Role, Word};
+use super::kin::{Kin, Role, Word};
 use super::mortality::Deaths;
 use crate::store::RunDir;
 use std::collections::BTreeMap;

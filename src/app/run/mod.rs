@@ -1,11 +1,13 @@
 //! `islands run` and `islands resume`: from what was asked for to the result.
 //!
 //! Here a run is made, or found again by [`resume`]. Then a [`supervisor`] sees it to its end: it starts the
-//! [`crew`], hears what its members say, and starts again who dies, unless that has no hope ([`mortality`]). What
-//! happens is told and logged by a [`chronicle`], and how far it got is shown by [`progress`].
+//! [`crew`], child processes each ([`kin`]), hears what they say, and starts again who dies, unless that has no
+//! hope ([`mortality`]). What happens is told and logged by a [`chronicle`], and how far it got is shown by
+//! [`progress`].
 
 mod chronicle;
 mod crew;
+mod kin;
 mod mortality;
 mod progress;
 mod resume;
@@ -40,7 +42,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
     let harbour = Harbour::create(&domain, &config.archipelago())?;
     let claim = dir.create().map_err(|error| {
         let go_on = match dir.config().exists() {
-            true => format!(", or go on with it: islands resume {}", dir.path().display()),
+            true => format!(", or go on with it: {}", resume::command(&dir)),
             false => String::new(),
         };
         Failure::usage(format!("{error}; choose another folder with --out{go_on}"))

@@ -64,11 +64,21 @@ pub fn way_back(failure: Failure, dir: &RunDir) -> Failure {
         _ if failure.is_interruption() => failure,
         Err(gone) => gone,
         Ok(()) => Failure::failed(format!(
-            "{}; the run stops, and nothing is lost; go on with: islands resume {}",
+            "{}; the run stops, and nothing is lost; go on with: {}",
             failure.message,
-            dir.path().display()
+            command(dir)
         )),
     }
+}
+
+/// The command that goes on with a run, as a shell takes it.
+pub fn command(dir: &RunDir) -> String {
+    let path = dir.path().display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+:@%".contains(c);
+    if path.chars().all(is_plain) {
+        return format!("islands resume {path}");
+    }
+    format!("islands resume '{}'", path.replace('\'', r"'\''"))
 }
 
 /// Requires that the folder of a run under way is where it was. Its processes hold their files open and would
@@ -159,6 +169,13 @@ fn differences(was: &str, is: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_command_that_goes_on_can_be_pasted_into_a_shell() {
+        let command = |path| command(&RunDir::at(path));
+        assert_eq!(command("runs/walk-seed7"), "islands resume runs/walk-seed7");
+        assert_eq!(command("my runs/it's"), r"islands resume 'my runs/it'\''s'");
+    }
 
     #[test]
     fn what_differs_is_named() {

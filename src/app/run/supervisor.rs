@@ -4,12 +4,13 @@ use super::super::Failure;
 use super::super::cli::OutputArgs;
 use super::super::config::Config;
 use super::super::console::Stopwatch;
-use super::super::kinship::{Ear, FINISHED, READY, Role, SERVING, Word};
+use super::super::kinship::{Ear, FINISHED, READY, SERVING};
 use super::super::result::Podium;
 use super::chronicle::Chronicle;
 use super::crew::Crew;
+use super::kin::{Role, Word};
 use super::mortality::DEATHS_MAX;
-use super::resume::require_folder;
+use super::resume::{self, require_folder};
 use crate::creature::Gene;
 use crate::problems::Locomotion;
 use crate::store::RunDir;
@@ -95,8 +96,8 @@ impl<'a> Supervisor<'a> {
                 let reached =
                     reached.map_or_else(String::new, |g| format!(" after generation {g}"));
                 return Err(Failure::interrupted(format!(
-                    "interrupted{reached}; nothing is lost; go on with: islands resume {}",
-                    self.dir.path().display()
+                    "interrupted{reached}; nothing is lost; go on with: {}",
+                    resume::command(self.dir)
                 )));
             }
         }
