@@ -38,18 +38,19 @@ pub fn parse() -> Cli {
 // those that it can.
 fn command() -> clap::Command {
     let settings = SettingArgs::augment_args(clap::Command::new(""));
-    let fixed: Vec<String> = settings
-        .get_arguments()
-        .map(|arg| arg.get_id().to_string())
-        .filter(|name| !FREE.contains(&name.replace('_', "-").as_str()))
-        .collect();
+    let settings: Vec<_> = settings.get_arguments().map(|arg| arg.get_id().clone()).collect();
     Cli::command().mut_subcommand("resume", |resume| {
-        resume.mut_args(|arg| match arg.get_id().as_str() {
-            name if fixed.iter().any(|fixed| fixed == name) => arg.hide(true),
-            name if FREE.contains(&name) => as_in_the_run(arg),
+        resume.mut_args(|arg| match arg.get_id() {
+            id if is_free(id) => as_in_the_run(arg),
+            id if settings.contains(id) => arg.hide(true),
             _ => arg,
         })
     })
+}
+
+/// Whether it is a setting that may be another one when a run goes on.
+fn is_free(id: &clap::Id) -> bool {
+    FREE.contains(&id.as_str().replace('_', "-").as_str())
 }
 
 /// A setting that stays as the run has it, whatever a new run's default is.
@@ -281,11 +282,12 @@ mod tests {
     fn the_help_of_resume_names_no_default_of_a_new_run() {
         let command = command();
         let resume = command.find_subcommand("resume").expect("there is one");
-        for name in FREE {
-            let arg = resume.get_arguments().find(|arg| arg.get_id() == name).expect("it is free");
+        let free: Vec<_> = resume.get_arguments().filter(|arg| is_free(arg.get_id())).collect();
+        assert_eq!(free.len(), FREE.len());
+        for arg in free {
             let help = arg.get_help().expect("it has one").to_string();
-            assert!(help.ends_with("[default: as in the run]"), "{name}: {help}");
-            assert_eq!(help.matches("default").count(), 1, "{name}: {help}");
+            assert!(help.ends_with("[default: as in the run]"), "{help}");
+            assert_eq!(help.matches("default").count(), 1, "{help}");
         }
     }
 
