@@ -258,8 +258,11 @@ fn only_what_stays_empty_is_stillborn() {
     std::thread::scope(|scope| {
         let removal = scope.spawn(|| place.memory.remove_stillborn(RUN));
         let next = place.shm.path().join("next");
+        // Held open: other than shared memory, a disk gives the number of a file that is gone to another one.
+        let mut ancestors = Vec::new();
         while !removal.is_finished() {
             fs::write(&next, []).unwrap();
+            ancestors.push(fs::File::open(&young).unwrap());
             fs::rename(&next, &young).unwrap();
             std::thread::sleep(Duration::from_millis(1));
         }
