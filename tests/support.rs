@@ -117,8 +117,7 @@ impl World {
 
     /// Starts the program and goes on.
     pub fn start(&self, arguments: &str) -> Running {
-        let mut command = self.command(arguments);
-        Running(Some(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()))
+        Running::of(self.command(arguments))
     }
 
     /// Every file in the folder that the program works in, in order.
@@ -176,6 +175,11 @@ impl From<Output> for Ending {
 pub struct Running(Option<Child>);
 
 impl Running {
+    /// Starts a command.
+    pub fn of(mut command: Command) -> Self {
+        Self(Some(command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()))
+    }
+
     pub fn pid(&self) -> u32 {
         self.0.as_ref().unwrap().id()
     }

@@ -3,6 +3,7 @@
 use crate::support::{Running, World, await_generation, checkpoints, signal, try_signal, until};
 use islands::store::{RunDir, checkpoint};
 use std::fs;
+use std::process::{Command, Stdio};
 
 /// A run of a second or two in which every generation matters to every island.
 const RUN: &str =
@@ -52,6 +53,27 @@ fn all_islands_may_die_at_once_again_and_again() {
     }
     let ending = run.wait();
     assert_eq!(ending.json()["digest"], expected, "{ending:?}");
+    world.assert_left_nothing();
+}
+
+#[test]
+fn a_run_whose_program_is_removed_goes_on_with_it() {
+    let world = World::new();
+    let expected = world.digest("undisturbed", RUN);
+    let copy = world.path("copy");
+    fs::copy(env!("CARGO_BIN_EXE_islands"), &copy).unwrap();
+    let mut command = Command::new(&copy);
+    let original = world.command(&format!("--out run --no-monitor --json {RUN}"));
+    command.args(original.get_args()).current_dir(world.path("")).stdin(Stdio::null());
+    command.envs(original.get_envs().filter_map(|(name, value)| Some((name, value?))));
+    let run = Running::of(command);
+    await_generation(&RunDir::at(world.path("run")), 3, 2);
+    fs::remove_file(&copy).unwrap();
+    signal(run.child("--index=1"), "KILL");
+    let ending = run.wait();
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    assert!(ending.stderr.contains("island 1 died"), "{ending:?}");
+    assert_eq!(ending.json()["digest"], expected);
     world.assert_left_nothing();
 }
 

@@ -4,6 +4,7 @@ use super::super::Failure;
 use std::fmt;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;
+use std::path::PathBuf;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::Sender;
 use std::thread::JoinHandle;
@@ -58,8 +59,7 @@ impl Kin {
         words: &Sender<(Role, Word)>,
     ) -> Result<Self, Failure> {
         let failed = |error| Failure::failed(format!("cannot start {role}: {error}"));
-        let executable = std::env::current_exe().map_err(failed)?;
-        let mut child = Command::new(executable)
+        let mut child = Command::new(executable().map_err(failed)?)
             .args(arguments)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -100,6 +100,14 @@ impl Kin {
         }
         status.map_err(|error| Failure::failed(format!("cannot wait for {role}: {error}")))
     }
+}
+
+/// This very program. Where it was built anew or removed since it started, it is the old one that goes on: the
+/// new one may evolve otherwise.
+fn executable() -> std::io::Result<PathBuf> {
+    const RUNNING: &str = "/proc/self/exe";
+    let named = std::env::current_exe()?;
+    Ok(if named.exists() { named } else { PathBuf::from(RUNNING) })
 }
 
 impl Drop for Kin {
