@@ -30,7 +30,7 @@ pub const THREADS_MAX: usize = 4_096;
 pub const FREE: [&str; 3] = ["generations", "threads", "checkpoint-interval"];
 
 /// The largest configuration file, in bytes; ours have a thousand.
-const FILE_BYTES_MAX: usize = 1 << 20;
+pub const FILE_BYTES_MAX: usize = 1 << 20;
 /// The longest complaint about a file that is passed on, in characters.
 const COMPLAINT_MAX: usize = 400;
 
@@ -154,8 +154,11 @@ impl Config {
     /// Reads the configuration of a run that was launched.
     ///
     /// # Errors
-    /// If it cannot be read, is not sound, or was not written by a launch.
+    /// If there is none, it cannot be read, is not sound, or was not written by a launch.
     pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
+        if !dir.config().exists() {
+            return Err(Failure::no_run(dir));
+        }
         let config = Self::read(&dir.config())?;
         config.check()?;
         match config.launch {
@@ -241,13 +244,23 @@ impl Config {
     /// The settings that decide what evolves, as TOML: all but [`FREE`] and what launched it. States that were
     /// saved under other ones, or by another version, are of no use.
     pub fn settings(&self) -> String {
+        self.settings_of(env!("CARGO_PKG_VERSION"))
+    }
+
+    /// The settings as a version of the program has them that knows the same ones.
+    pub fn settings_of(&self, version: &str) -> String {
         let mut settings =
             toml::Table::try_from(self).expect("a checked configuration is plain data");
         for other in FREE.into_iter().chain(["launch"]) {
             settings.remove(other);
         }
-        settings.insert("version".to_owned(), env!("CARGO_PKG_VERSION").into());
+        settings.insert("version".to_owned(), version.into());
         settings.to_string()
+    }
+
+    /// The version of the program that launched the run, empty if none did.
+    pub fn version(&self) -> &str {
+        self.launch.as_ref().map_or("", |launch| &launch.version)
     }
 
     /// What decides the result of the run, but for the problem. A seed that was not picked yet is 0.

@@ -12,8 +12,8 @@ use crate::store::{Champion, Entry, RecordLog, RunDir, StoreError, checkpoint, f
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A summary is some hundred bytes long.
-const SUMMARY_BYTES_MAX: usize = 1 << 20;
+/// No summary is longer, in bytes: one has some hundred.
+pub const SUMMARY_BYTES_MAX: usize = 1 << 20;
 
 /// The result of a run, as `summary.json` and `--json` say it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -32,7 +32,7 @@ pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
     // Standing back is a courtesy: where it is not to be had, filming goes on.
     let _ = rustix::process::nice(NICENESS);
     let dir = RunDir::at(&args.dir);
-    let config = configuration(&dir)?;
+    let config = Config::of_run(&dir)?;
     let launched = args.parent.is_some();
     let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
     // Nobody has the time to attach to a run that is over.
@@ -47,14 +47,6 @@ pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
     }
     let logs = Logs::of(&dir, config.islands);
     Show { dir, config, launched, ear, logs, cinema }.run()
-}
-
-/// What the run is.
-fn configuration(dir: &RunDir) -> Result<Config, Failure> {
-    if !dir.config().exists() {
-        return Err(Failure::no_run(dir));
-    }
-    Config::of_run(dir)
 }
 
 /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while

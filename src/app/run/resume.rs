@@ -42,7 +42,7 @@ pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
 /// If that would change what it evolves.
 pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
     let own = Config::of_run(dir)?;
-    require_version(own.launch.as_ref().map_or("", |launch| &launch.version))?;
+    require_version(own.version())?;
     let config = wish.over(own.clone());
     config.check()?;
     let changes = differences(&own.settings(), &config.settings());

@@ -1,10 +1,9 @@
 //! What the files of the whole run claim, compared with what its islands left.
 
 use super::super::result;
-use super::SMALL_FILE_BYTES_MAX;
 use super::check::{Check, counted};
 use super::records::Records;
-use super::rules::{Terms, may_have_lived};
+use super::rules::Terms;
 use crate::archipelago::{Digest, Island};
 use crate::creature::Gene;
 use crate::formats::{genome_csv, metrics, urdf};
@@ -30,7 +29,7 @@ impl SummaryFile {
     /// Reads it.
     pub fn read(dir: &RunDir) -> Self {
         let path = dir.summary();
-        let bytes = match file::read(&path, SMALL_FILE_BYTES_MAX) {
+        let bytes = match file::read(&path, result::SUMMARY_BYTES_MAX) {
             Ok(bytes) => bytes,
             Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
                 return Self::Missing;
@@ -145,7 +144,7 @@ fn check_summary(
 fn check_champion(dir: &RunDir, terms: &Terms, finals: Option<&[Island<Gene>]>) -> Check {
     let mut check = Check::of("champion").checked("champion.csv, .urdf");
     let champion = finals.map(|finals| &result::best(finals).champion.genome);
-    let Some(genome) = champion.filter(|genome| may_have_lived(genome, terms.config)) else {
+    let Some(genome) = champion else {
         check.note("not checked: a final population is missing or damaged");
         return check;
     };

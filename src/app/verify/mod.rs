@@ -12,7 +12,7 @@ mod retrial;
 mod rules;
 
 use super::cli::VerifyArgs;
-use super::config::Config;
+use super::config::{Config, FILE_BYTES_MAX};
 use super::console::print;
 use super::{Failure, table};
 use crate::store::{RunDir, StoreError, file};
@@ -22,9 +22,6 @@ use retrial::{Mismatch, Retrial};
 use rules::Terms;
 use serde::Serialize;
 use std::io::ErrorKind;
-
-/// No configuration and no summary is longer, in bytes.
-const SMALL_FILE_BYTES_MAX: usize = 1 << 20;
 
 /// Verifies the run in a folder.
 ///
@@ -71,7 +68,7 @@ fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
         return Err(Failure::no_run(dir));
     }
     at_rest(dir)?;
-    match file::read_text(&dir.config(), SMALL_FILE_BYTES_MAX) {
+    match file::read_text(&dir.config(), FILE_BYTES_MAX) {
         Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
             Err(Failure::no_run(dir))
         }
@@ -128,7 +125,7 @@ fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
 
 /// Another version may compute otherwise; whether it does, simulating again shows.
 fn check_version(terms: &Terms) -> Check {
-    let shown: String = rules::version(terms.config).chars().take(24).collect();
+    let shown: String = terms.config.version().chars().take(24).collect();
     let mut check = Check::of("run.toml").checked(format!("version {shown}"));
     if !terms.is_of_this_version() {
         check.note(concat!("ok, but this is version ", env!("CARGO_PKG_VERSION")));

@@ -3,9 +3,8 @@
 use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::check::{Check, counted};
-use super::rules::may_have_lived;
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Individual, Problem};
+use crate::evolution::{Fitness, Gene as _, Individual, Problem};
 use crate::problems::Locomotion;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
@@ -102,6 +101,11 @@ pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
     };
     let mismatches = claims.iter().filter_map(mismatch).collect();
     Retrial { simulated: found.len(), mismatches }
+}
+
+/// Whether an individual of the run can have had this genome.
+fn may_have_lived(genome: &[Gene], config: &Config) -> bool {
+    (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(|gene| gene.is_valid())
 }
 
 /// The fitness of each genome.

@@ -6,9 +6,9 @@
 use super::super::config::Config;
 use crate::archipelago::{Archipelago, Island, Outbox};
 use crate::creature::Gene;
+use crate::evolution::Fitness;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Gene as _};
 use crate::store::{Champion, Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -25,12 +25,13 @@ pub struct Terms<'a> {
 impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
     pub fn new(config: &'a Config, finished: bool) -> Self {
-        Self { config, finished, archipelago: config.archipelago(), settings: settings(config) }
+        let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
+        Self { config, finished, archipelago, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
     pub fn is_of_this_version(&self) -> bool {
-        version(self.config) == env!("CARGO_PKG_VERSION")
+        self.config.version() == env!("CARGO_PKG_VERSION")
     }
 
     /// How many records a log may have that has `of(g)` of them after generation g: all of a finished run, else
@@ -172,9 +173,9 @@ impl<'a> Terms<'a> {
                 return wrong("is of another island or epoch");
             }
             let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
-            let lived = outbox.migrants.iter().all(|m| may_have_lived(&m.genome, self.config));
             let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
-            if fitness.len() != self.config.migrants || !are_the_best || !lived {
+            let can_be_sent = outbox.fits(&self.archipelago, island);
+            if fitness.len() != self.config.migrants || !are_the_best || !can_be_sent {
                 return wrong("holds migrants that cannot have been sent");
             }
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
@@ -189,26 +190,8 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// The version of the program that launched a run.
-pub fn version(config: &Config) -> &str {
-    config.launch.as_ref().map_or("", |launch| launch.version.as_str())
-}
-
-/// Whether an individual of the run can have had this genome.
-pub fn may_have_lived(genome: &[Gene], config: &Config) -> bool {
-    (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(|gene| gene.is_valid())
-}
-
 /// The champion at the end of a generation; they must be in order.
 fn reign(champions: &[Champion<Gene>], generation: u32) -> Option<&Champion<Gene>> {
     let after = champions.partition_point(|champion| champion.generation <= generation);
     champions[..after].last()
-}
-
-/// The settings as the version that launched the run writes them into its checkpoints.
-fn settings(config: &Config) -> String {
-    let mut settings: toml::Table =
-        config.settings().parse().expect("it is the text of a table of ours");
-    settings.insert("version".to_owned(), version(config).into());
-    settings.to_string()
 }
