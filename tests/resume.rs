@@ -192,6 +192,9 @@ fn what_would_change_the_result_is_refused_by_name() {
     assert!(said.contains("made by version 0.0.9"), "{said}");
     let said = refusal_of(config[..config.find("[launch]").unwrap()].to_owned());
     assert!(said.contains("was not written by a run"), "{said}");
+    // Before its first checkpoint nothing else knows the seed.
+    let said = refusal_of(config.replace("seed = 3\n", ""));
+    assert!(said.contains("was not written by a run"), "{said}");
     assert!(refusal_of("population = ".to_owned()).contains("run.toml"));
     fs::remove_file(world.path("run/run.toml")).unwrap();
     assert!(refusal("").contains("there is no run in run"));

@@ -161,9 +161,9 @@ impl Config {
         }
         let config = Self::read(&dir.config())?;
         config.check()?;
-        match config.launch {
-            Some(_) => Ok(config),
-            None => Err(Failure::usage(format!(
+        match config.is_launched() {
+            true => Ok(config),
+            false => Err(Failure::usage(format!(
                 "{} was not written by a run: start one with islands --config {0}",
                 dir.config().display()
             ))),
@@ -256,6 +256,11 @@ impl Config {
         }
         settings.insert("version".to_owned(), version.into());
         settings.to_string()
+    }
+
+    /// Whether it is that of a run: a launch picks a seed where none is said.
+    pub fn is_launched(&self) -> bool {
+        self.seed.is_some() && self.launch.is_some()
     }
 
     /// The version of the program that launched the run, empty if none did.

@@ -94,7 +94,7 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 fn launched(text: &str) -> Result<Config, String> {
     let config = Config::parse(text)?;
     config.check().map_err(|failure| failure.message)?;
-    if config.seed.is_none() || config.launch.is_none() {
+    if !config.is_launched() {
         return Err("it names no seed or no launch, as that of every run does".to_owned());
     }
     Ok(config)
