@@ -3,9 +3,9 @@
 //! `cargo bench --bench evaluation`
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use islands::creature::{Gene, Profile};
+use islands::creature::Gene;
 use islands::evolution::{Outcome, Problem};
-use islands::problems::{Locomotion, Task};
+use islands::problems::Locomotion;
 use islands::rng::{Purpose, Source};
 use std::time::Duration;
 
@@ -23,8 +23,7 @@ fn main() {
 }
 
 fn evaluation(criterion: &mut Criterion) {
-    let problem =
-        Locomotion { profile: Profile::Native, task: Task::Walk, genes: 1, links_max: 32 };
+    let problem = Locomotion { genes: 1, ..Locomotion::default() };
     let mut group = criterion.benchmark_group("evaluation");
     group
         .sample_size(10)

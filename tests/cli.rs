@@ -22,8 +22,7 @@ fn random_genome(genes: usize, index: u32) -> Vec<Gene> {
     problem.random_genome(&mut Source { seed: 29, island: 0 }.stream(0, index, Purpose::Genesis))
 }
 
-const LOCOMOTION: Locomotion =
-    Locomotion { profile: Profile::Native, task: Task::Walk, genes: 1, links_max: 32 };
+const LOCOMOTION: Locomotion = Locomotion { genes: 1, ..Locomotion::DEFAULT };
 
 fn csv(genome: &[Gene]) -> Vec<u8> {
     let mut file = Vec::new();

@@ -7,7 +7,7 @@ use islands::creature::profile::COURSEWORK_LINKS_MAX;
 use islands::creature::{ExpressionError, Gene, Profile, express};
 use islands::evolution::Problem;
 use islands::formats::{GenomeCsvError, Inspection, genome_csv};
-use islands::problems::{Locomotion, Task};
+use islands::problems::Locomotion;
 use islands::rng::{Purpose, Source};
 use serde_json::Value;
 use std::fs;
@@ -41,8 +41,7 @@ fn every_genome_of_the_course_becomes_the_same_links_to_the_last_bit() {
 
 #[test]
 fn writing_a_genome_and_reading_it_gives_the_same_bits() {
-    let problem =
-        Locomotion { profile: Profile::Native, task: Task::Walk, genes: 5, links_max: 32 };
+    let problem = Locomotion { genes: 5, ..Locomotion::default() };
     let random = (0..200).map(|index| {
         let mut rng = Source { seed: 17, island: 0 }.stream(0, index, Purpose::Genesis);
         problem.random_genome(&mut rng)

@@ -9,7 +9,7 @@ use islands::simulation::Trajectory;
 use std::collections::BTreeMap;
 
 fn problem(profile: Profile, task: Task) -> Locomotion {
-    Locomotion { profile, task, genes: 3, links_max: 32 }
+    Locomotion { profile, task, genes: 3, ..Locomotion::default() }
 }
 
 /// Genomes of one to three genes.

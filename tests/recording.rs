@@ -16,8 +16,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-const WALK: Locomotion =
-    Locomotion { profile: Profile::Native, task: Task::Walk, genes: 2, links_max: 32 };
+const WALK: Locomotion = Locomotion { genes: 2, ..Locomotion::DEFAULT };
 
 #[test]
 fn a_recording_shows_each_islands_champion_as_it_was_simulated() {

@@ -4,6 +4,7 @@ use super::config::FREE;
 use super::settings::SettingArgs;
 use crate::creature::Profile;
 use crate::problems::Task;
+use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -149,6 +150,9 @@ pub struct TrialArgs {
     /// How genes are read: native, lecture or coursework
     #[arg(long, default_value_t)]
     pub profile: Profile,
+    /// What moves the body: rapier (the engine of record)
+    #[arg(long, default_value_t)]
+    pub engine: Engine,
     /// No body gets more links than this, but for profile coursework
     #[arg(long, default_value_t = 32, value_name = "L")]
     pub max_links: usize,

@@ -5,6 +5,7 @@ use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_M
 use crate::creature::Profile;
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
+use crate::simulation::Engine;
 use crate::store::{RunDir, file};
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
@@ -51,6 +52,8 @@ pub struct Config {
     pub task: Task,
     /// How genes are read.
     pub profile: Profile,
+    /// What moves the bodies.
+    pub engine: Engine,
     /// Genes of a random genome.
     pub genes: usize,
     /// No genome gets longer than this, in genes.
@@ -108,6 +111,7 @@ impl Default for Config {
             population: 24,
             task: Task::Walk,
             profile: Profile::Native,
+            engine: Engine::Rapier,
             genes: 4,
             max_genes: 12,
             max_links: 32,
@@ -312,6 +316,7 @@ impl Config {
             task: self.task,
             genes: self.genes,
             links_max: self.max_links,
+            engine: self.engine,
         }
     }
 }

@@ -55,7 +55,8 @@ impl TrialArgs {
     /// # Errors
     /// If more links are asked for than may be.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, profile, max_links } = *self;
-        Ok(Locomotion { profile, task, genes: 1, links_max: links_max(max_links)? })
+        let Self { task, profile, engine, max_links } = *self;
+        let links_max = links_max(max_links)?;
+        Ok(Locomotion { profile, task, engine, links_max, ..Locomotion::default() })
     }
 }

@@ -4,6 +4,7 @@ use super::config::Config;
 use crate::creature::Profile;
 use crate::evolution::Selection;
 use crate::problems::Task;
+use crate::simulation::Engine;
 use clap::Args;
 
 /// The settings of a run.
@@ -28,6 +29,9 @@ pub struct SettingArgs {
     /// How genes are read: native, lecture or coursework [default: native]
     #[arg(long)]
     pub profile: Option<Profile>,
+    /// What moves the bodies: rapier (the engine of record) [default: rapier]
+    #[arg(long)]
+    pub engine: Option<Engine>,
     /// Genes of a random genome [default: 4]
     #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
     pub genes: Option<usize>,
@@ -87,6 +91,7 @@ impl SettingArgs {
             population: self.population.unwrap_or(config.population),
             task: self.task.unwrap_or(config.task),
             profile: self.profile.unwrap_or(config.profile),
+            engine: self.engine.unwrap_or(config.engine),
             genes: self.genes.unwrap_or(config.genes),
             max_genes: self.max_genes.unwrap_or(config.max_genes),
             max_links: self.max_links.unwrap_or(config.max_links),
@@ -126,7 +131,10 @@ mod tests {
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");
         let file = toml::Table::try_from(Config::default()).expect("plain data");
         for (name, value) in &file {
-            assert!(name == "topology" || laid[name] != *value, "{name} has no flag");
+            assert!(
+                ["topology", "engine"].contains(&name.as_str()) || laid[name] != *value,
+                "{name} has no flag"
+            );
         }
     }
 }

@@ -208,12 +208,12 @@ fn motor(motor: &Motor, period_s: f64, profile: Profile) -> MotorInspection {
 mod tests {
     use super::*;
     use crate::evolution::Problem;
-    use crate::problems::{Locomotion, Task};
+    use crate::problems::Locomotion;
     use crate::rng::{Purpose, Source};
     use serde_json::Value;
 
     fn inspected(profile: Profile, index: u32) -> Value {
-        let problem = Locomotion { profile, task: Task::Walk, genes: 4, links_max: 32 };
+        let problem = Locomotion { profile, ..Locomotion::default() };
         let mut rng = Source { seed: 3, island: 0 }.stream(0, index, Purpose::Genesis);
         let creature = problem.express(&problem.random_genome(&mut rng)).unwrap();
         serde_json::to_value(Inspection::new(&creature, profile, "random")).unwrap()

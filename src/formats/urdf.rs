@@ -156,7 +156,7 @@ mod tests {
     use super::*;
     use crate::creature::{Creature, Gene, Profile, express};
     use crate::evolution::Problem;
-    use crate::problems::{Locomotion, Task};
+    use crate::problems::Locomotion;
     use crate::rng::{Purpose, Source};
     use expect_test::expect;
 
@@ -265,7 +265,7 @@ mod tests {
     #[test]
     fn the_frames_of_the_file_lead_to_where_the_links_are_at_rest() {
         for (profile, index) in Profile::ALL.into_iter().cycle().zip(0..90) {
-            let problem = Locomotion { profile, task: Task::Walk, genes: 4, links_max: 32 };
+            let problem = Locomotion { profile, ..Locomotion::default() };
             let mut rng = Source { seed: 5, island: 0 }.stream(0, index, Purpose::Genesis);
             let creature = problem.express(&problem.random_genome(&mut rng)).unwrap();
             let rest = creature.morphology.rest_poses();

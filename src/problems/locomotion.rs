@@ -5,7 +5,7 @@ use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile};
 use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
 use crate::rng::Stream;
-use crate::simulation::{self, Measurement, Start, Trajectory, Trial};
+use crate::simulation::{self, Engine, Measurement, Start, Trajectory, Trial};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -81,7 +81,7 @@ impl std::str::FromStr for Task {
 }
 
 /// The problem of locomotion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Locomotion {
     /// How genes are read.
     pub profile: Profile,
@@ -91,9 +91,26 @@ pub struct Locomotion {
     pub genes: usize,
     /// The most links of a body, for profiles that cut.
     pub links_max: usize,
+    /// What moves the bodies.
+    pub engine: Engine,
+}
+
+impl Default for Locomotion {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
 }
 
 impl Locomotion {
+    /// What a run solves if nothing else is said.
+    pub const DEFAULT: Self = Self {
+        profile: Profile::Native,
+        task: Task::Walk,
+        genes: 4,
+        links_max: 32,
+        engine: Engine::Rapier,
+    };
+
     /// Expresses a genome.
     ///
     /// # Errors
@@ -108,13 +125,13 @@ impl Locomotion {
     /// If the genome cannot be expressed.
     pub fn film(&self, genome: &[Gene]) -> Result<(Evaluation, Trajectory), ExpressionError> {
         let creature = self.express(genome)?;
-        let (result, trajectory) = simulation::film(&creature, &self.task.trial());
+        let (result, trajectory) = simulation::film(&creature, &self.task.trial(), self.engine);
         Ok((self.evaluation(result), trajectory))
     }
 
     fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        simulation::simulate(&creature, &self.task.trial())
+        simulation::simulate(&creature, &self.task.trial(), self.engine)
     }
 
     fn evaluation(&self, result: Result<Measurement, Outcome>) -> Evaluation {
@@ -191,7 +208,7 @@ mod tests {
     use crate::rng::{Purpose, Source};
 
     fn problem() -> Locomotion {
-        Locomotion { profile: Profile::Native, task: Task::Walk, genes: 3, links_max: 32 }
+        Locomotion::default()
     }
 
     fn stream(index: u32) -> Stream {

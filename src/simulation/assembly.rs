@@ -1,0 +1,180 @@
+//! A creature as physics sees it: rigid parts in a tree of hinges.
+//!
+//! Links that fixed joints hold together are one part: there is nothing to solve between them.
+
+use super::trial::{Start, Trial};
+use crate::creature::{Creature, Joint, JointKind, Link, Shape};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+
+/// A body put together, at the place where its trial begins.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembly {
+    /// The rigid parts, the root first and every parent before its children.
+    pub parts: Vec<Part>,
+    /// Where each link is.
+    pub places: Vec<Place>,
+}
+
+/// A rigid part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Where it is when the trial begins.
+    pub world_from_part: Isometry3<f64>,
+    /// What it consists of.
+    pub solids: Vec<Solid>,
+    /// Its mass, in kilograms.
+    pub mass_kg: f64,
+    /// Its centre of mass in its own frame, in metres; the root's is its origin.
+    pub centre_m: Vector3<f64>,
+    /// Its inertia about the centre of mass, along its own axes, in kg·m².
+    pub inertia_kg_m2: Matrix3<f64>,
+    /// What holds it to its parent; none for the root.
+    pub hinge: Option<Hinge>,
+}
+
+/// One solid of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solid {
+    /// Its form.
+    pub shape: Shape,
+    /// Its mass in kilograms, spread evenly.
+    pub mass_kg: f64,
+    /// Its frame in the part's.
+    pub part_from_solid: Isometry3<f64>,
+}
+
+/// A hinge with a motor. It turns about the x axis of its frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hinge {
+    /// The parent part's index.
+    pub parent: usize,
+    /// The hinge's frame in the parent's.
+    pub parent_from_hinge: Isometry3<f64>,
+    /// The hinge's frame in that of the part, the same place at rest.
+    pub part_from_hinge: Isometry3<f64>,
+    /// The largest torque of its motor, in newton metres.
+    pub torque_nm_max: f64,
+}
+
+/// Where a link is: its part and its frame there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// The part's index.
+    pub part: usize,
+    /// The link's frame in the part's.
+    pub part_from_link: Isometry3<f64>,
+}
+
+impl Assembly {
+    /// Puts a creature together for a trial.
+    pub fn new(creature: &Creature, trial: &Trial) -> Self {
+        let morphology = &creature.morphology;
+        let mut assembly = Self { parts: Vec::new(), places: Vec::new() };
+        for (index, (link, rest)) in
+            morphology.links.iter().zip(morphology.rest_poses()).enumerate()
+        {
+            let torque_nm_max = creature.controller.motors[index].map_or(0.0, |m| m.torque_nm_max);
+            assembly.add(link, rest, torque_nm_max);
+        }
+        for part in &mut assembly.parts {
+            part.weigh();
+        }
+        assembly.centre_root();
+        let height_m = match trial.start {
+            Start::RootAt(height_m) => height_m,
+            Start::LowestAt(height_m) => height_m - morphology.lowest_m(),
+        };
+        for part in &mut assembly.parts {
+            part.world_from_part = Translation3::new(0.0, 0.0, height_m) * part.world_from_part;
+        }
+        assembly
+    }
+
+    fn add(&mut self, link: &Link, rest: Isometry3<f64>, torque_nm_max: f64) {
+        let place = match &link.joint {
+            Some(Joint { parent, parent_from_joint, joint_from_link, kind: JointKind::Fixed }) => {
+                let Place { part, part_from_link: part_from_parent } = self.places[*parent];
+                Place {
+                    part,
+                    part_from_link: part_from_parent * parent_from_joint * joint_from_link,
+                }
+            }
+            joint => {
+                let hinge = joint.as_ref().map(|joint| self.hinge(joint, torque_nm_max));
+                self.parts.push(Part::at(rest, hinge));
+                Place { part: self.parts.len() - 1, part_from_link: Isometry3::identity() }
+            }
+        };
+        self.places.push(place);
+        self.parts[place.part].solids.push(Solid {
+            shape: link.shape,
+            mass_kg: link.mass_kg,
+            part_from_solid: place.part_from_link,
+        });
+    }
+
+    fn hinge(&self, joint: &Joint, torque_nm_max: f64) -> Hinge {
+        let Joint { parent, parent_from_joint, joint_from_link, kind } = joint;
+        let JointKind::Revolute(axis) = kind else { unreachable!("fixed links are merged") };
+        let to_axis = UnitQuaternion::rotation_between(&Vector3::x(), axis)
+            .expect("a hinge's axis is a positive unit axis, never -x");
+        let Place { part, part_from_link } = self.places[*parent];
+        Hinge {
+            parent: part,
+            parent_from_hinge: part_from_link * parent_from_joint * to_axis,
+            part_from_hinge: joint_from_link.inverse() * to_axis,
+            torque_nm_max,
+        }
+    }
+
+    /// Moves the root's frame to its centre of mass, which is where rapier's multibodies need it: they move a free
+    /// root by the velocity of its centre of mass but turn it about its origin, and with the two apart a body that
+    /// turns travels by itself.
+    fn centre_root(&mut self) {
+        let centre_m = self.parts[0].centre_m;
+        let new_from_old = Isometry3::from(Translation3::from(-centre_m));
+        let root = &mut self.parts[0];
+        root.world_from_part *= new_from_old.inverse();
+        root.centre_m = Vector3::zeros();
+        for solid in &mut root.solids {
+            solid.part_from_solid = new_from_old * solid.part_from_solid;
+        }
+        let places = self.places.iter_mut().filter(|place| place.part == 0);
+        places.for_each(|place| place.part_from_link = new_from_old * place.part_from_link);
+        let hinges = self.parts.iter_mut().filter_map(|part| part.hinge.as_mut());
+        for hinge in hinges.filter(|hinge| hinge.parent == 0) {
+            hinge.parent_from_hinge = new_from_old * hinge.parent_from_hinge;
+        }
+    }
+}
+
+impl Part {
+    fn at(world_from_part: Isometry3<f64>, hinge: Option<Hinge>) -> Self {
+        Self {
+            world_from_part,
+            solids: Vec::new(),
+            mass_kg: 0.0,
+            centre_m: Vector3::zeros(),
+            inertia_kg_m2: Matrix3::zeros(),
+            hinge,
+        }
+    }
+
+    /// Adds up what the solids weigh, by the parallel-axis theorem.
+    fn weigh(&mut self) {
+        self.mass_kg = self.solids.iter().map(|solid| solid.mass_kg).sum();
+        let moment = |solid: &Solid| solid.mass_kg * solid.part_from_solid.translation.vector;
+        self.centre_m = self.solids.iter().map(moment).sum::<Vector3<f64>>() / self.mass_kg;
+        self.inertia_kg_m2 = self.solids.iter().map(|s| s.inertia_about(&self.centre_m)).sum();
+    }
+}
+
+impl Solid {
+    fn inertia_about(&self, point_m: &Vector3<f64>) -> Matrix3<f64> {
+        let axes = self.part_from_solid.rotation.to_rotation_matrix();
+        let own = Matrix3::from_diagonal(&self.shape.inertia_kg_m2(self.mass_kg));
+        let arm = self.part_from_solid.translation.vector - point_m;
+        let offset = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
+        axes * own * axes.transpose() + self.mass_kg * offset
+    }
+}

@@ -1,0 +1,34 @@
+//! Which engine moves a body.
+
+use crate::choice;
+use serde::{Deserialize, Serialize};
+
+/// A physics engine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Engine {
+    /// rapier's multibodies: the engine of record.
+    #[default]
+    Rapier,
+}
+
+impl Engine {
+    /// Every engine.
+    pub const ALL: [Engine; 1] = [Engine::Rapier];
+}
+
+impl std::fmt::Display for Engine {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Engine::Rapier => "rapier",
+        })
+    }
+}
+
+impl std::str::FromStr for Engine {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("engine", &Engine::ALL, text)
+    }
+}

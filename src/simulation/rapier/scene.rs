@@ -1,0 +1,45 @@
+//! The world that a body is put into: a plane, gravity, a clock.
+
+use super::super::trial::{FRICTION, Trial};
+use rapier3d::prelude::*;
+
+/// The ground belongs to this group and touches the creature; links of one creature never touch each other,
+/// since most overlap their neighbours at birth.
+const GROUND_GROUP: Group = Group::GROUP_1;
+const CREATURE_GROUP: Group = Group::GROUP_2;
+
+/// A world with a ground.
+pub struct Scene {
+    pub(super) world: PhysicsWorld,
+}
+
+impl Scene {
+    /// A world without a body yet.
+    pub fn new(trial: &Trial) -> Self {
+        let mut world = PhysicsWorld::new();
+        world.gravity = Vector::new(0.0, 0.0, -trial.gravity_m_s2 as f32);
+        world.integration_parameters = IntegrationParameters {
+            dt: 1.0 / trial.steps_per_s as f32,
+            // Each iteration is a whole substep: one at a small time step is as sound as four, and three
+            // times faster.
+            num_solver_iterations: 1,
+            max_ccd_substeps: 0,
+            ..IntegrationParameters::default()
+        };
+        let ground = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));
+        world.insert_collider(Self::surface(ground, GROUND_GROUP, CREATURE_GROUP), None);
+        Self { world }
+    }
+
+    /// The collider of a link, touching the ground alone.
+    pub(super) fn link_collider(builder: ColliderBuilder) -> ColliderBuilder {
+        Self::surface(builder, CREATURE_GROUP, GROUND_GROUP)
+    }
+
+    fn surface(builder: ColliderBuilder, of: Group, touches: Group) -> ColliderBuilder {
+        builder
+            .friction(FRICTION as f32)
+            .friction_combine_rule(CoefficientCombineRule::Multiply)
+            .collision_groups(InteractionGroups::new(of, touches, InteractionTestMode::And))
+    }
+}

@@ -1,0 +1,51 @@
+//! How a body is tried, and the constants of the world that it is tried in.
+
+/// How a body is tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trial {
+    /// Steps a second.
+    pub steps_per_s: u32,
+    /// Acceleration of gravity, downwards, in m/s².
+    pub gravity_m_s2: f64,
+    /// Where the body begins.
+    pub start: Start,
+    /// Time to come to rest before scoring, in seconds; motors hold still meanwhile.
+    pub settle_s: f64,
+    /// Time that is scored, in seconds.
+    pub scored_s: f64,
+    /// Whether a body that gains momentum out of nothing is refused.
+    pub keeps_ledger: bool,
+}
+
+/// Where a body begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// With its root this high, in metres.
+    RootAt(f64),
+    /// With its lowest point this high, in metres.
+    LowestAt(f64),
+}
+
+/// Friction of the ground and of every link; their product acts between them. From the course.
+pub const FRICTION: f64 = 0.5;
+
+impl Trial {
+    /// The simulated time after a number of steps, in seconds.
+    pub fn time_s(&self, step: u32) -> f64 {
+        f64::from(step) / f64::from(self.steps_per_s)
+    }
+
+    /// All steps of a trial that runs to its end.
+    pub fn steps(&self) -> u32 {
+        self.steps_in_exactly(self.settle_s) + self.steps_in_exactly(self.scored_s)
+    }
+
+    /// The nearest number of steps to a period, at least 1.
+    pub(super) fn steps_in(&self, period_s: f64) -> u32 {
+        self.steps_in_exactly(period_s).max(1)
+    }
+
+    pub(super) fn steps_in_exactly(&self, period_s: f64) -> u32 {
+        (period_s * f64::from(self.steps_per_s)).round() as u32
+    }
+}

@@ -1,0 +1,58 @@
+//! What a trial needs of an engine, and what can be said of a body in any of them.
+
+use super::assembly::Assembly;
+use super::trajectory::Pose;
+use crate::evolution::Outcome;
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// A body on the ground, under one of the engines. Parts are those of its [`Assembly`], by their index.
+pub trait World {
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// If the engine met a number that is none.
+    fn step(&mut self) -> Result<(), Outcome>;
+
+    /// Sets the speed that the motor of a part's hinge aims at, in rad/s.
+    fn drive(&mut self, part: usize, target_rad_s: f64);
+
+    /// Where a part is.
+    fn world_from_part(&self, part: usize) -> Isometry3<f64>;
+
+    /// The velocity of a part's centre of mass, in m/s.
+    fn velocity_m_s(&self, part: usize) -> Vector3<f64>;
+}
+
+/// The centre of mass of the whole body, in metres.
+pub fn centre_of_mass(world: &impl World, assembly: &Assembly) -> Vector3<f64> {
+    let parts = assembly.parts.iter().enumerate();
+    let (moment, mass_kg) =
+        parts.fold((Vector3::zeros(), 0.0), |(moment, mass_kg), (index, part)| {
+            let centre_m = world.world_from_part(index) * Point3::from(part.centre_m);
+            (moment + part.mass_kg * centre_m.coords, mass_kg + part.mass_kg)
+        });
+    moment / mass_kg
+}
+
+/// The position of the root link, in metres.
+pub fn root_position(world: &impl World, assembly: &Assembly) -> Vector3<f64> {
+    link_pose(world, assembly, 0).translation.vector
+}
+
+/// The pose of every link.
+pub fn poses(world: &impl World, assembly: &Assembly) -> Vec<Pose> {
+    let pose = |link| {
+        let pose = link_pose(world, assembly, link);
+        let rotation = pose.rotation.cast::<f32>();
+        Pose {
+            position_m: pose.translation.vector.cast::<f32>().into(),
+            rotation_xyzw: rotation.into_inner().normalize().coords.into(),
+        }
+    };
+    (0..assembly.places.len()).map(pose).collect()
+}
+
+fn link_pose(world: &impl World, assembly: &Assembly, link: usize) -> Isometry3<f64> {
+    let place = &assembly.places[link];
+    world.world_from_part(place.part) * place.part_from_link
+}
