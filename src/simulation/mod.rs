@@ -10,6 +10,8 @@ pub mod assembly;
 pub mod engine;
 mod rapier;
 pub mod stability;
+#[cfg(test)]
+mod tests;
 pub mod trajectory;
 pub mod trial;
 pub mod world;
