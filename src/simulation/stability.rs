@@ -95,6 +95,11 @@ impl Ledger {
         (self.position_m, self.velocity_m_s) = (position_m, Some(velocity_m_s));
         if self.excess_m_s > EXCESS_MAX_M_S { Err(Outcome::Unphysical) } else { Ok(()) }
     }
+
+    /// Speed that the body has gained out of nothing so far, in m/s.
+    pub fn excess_m_s(&self) -> f64 {
+        self.excess_m_s
+    }
 }
 
 #[cfg(test)]
