@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import math
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -59,7 +60,7 @@ def moves(creatures: Sequence[Creature], programs: Sequence[Islands]) -> dict[st
         _, scores = program.evaluate(creatures)
         found[program.name] = Moves(
             np.array([score.displacement_m for score in scores]),
-            np.array([np.nan if score.path_m is None else score.path_m for score in scores]),
+            np.array([math.nan if score.path_m is None else score.path_m for score in scores]),
             np.array([score.sound for score in scores]),
         )
     return found

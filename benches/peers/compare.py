@@ -4,6 +4,8 @@
     cargo build --release
     python3 benches/peers/compare.py
 
+Needs Python 3.11 or newer, Linux, and the network when run for the first time. A run takes two minutes or more.
+
 Installs the peers (requirements.txt) in a virtual environment of its own, draws random creatures of the course from a
 fixed seed (30 of 3 genes, 10 of 6, 10 of 10, none with more than 30 links: the mixed set; the first 30 are the 3-gene
 set), and has every engine simulate each for 2,400 steps of 1/240 s: dropped from 2.5 m on a plane, gravity 10 m/s²,
@@ -74,9 +76,7 @@ def main() -> None:
 
 def _arguments() -> argparse.Namespace:
     description = (__doc__ or "").format(gain=bodies.MUJOCO_GAIN, armature=bodies.MUJOCO_ARMATURE)
-    parser = argparse.ArgumentParser(
-        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("--islands", type=Path, default=ROOT / "target/release/islands", metavar="PROGRAM", help="the program")
     add("--venv", type=Path, default=ROOT / "target/peers-venv", metavar="FOLDER", help="the virtual environment")

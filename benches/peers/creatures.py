@@ -45,7 +45,7 @@ def mixed_set(islands: Path, folder: Path, seed: int) -> list[Creature]:
 def _draw(draw: random.Random, islands: Path, path: Path, genes: int) -> Creature | None:
     lines = ("".join(f"{draw.random()!r}," for _ in range(PARAMETERS)) for _ in range(genes))
     path.write_text("\n".join(lines) + "\n")
-    inspect = [islands, "inspect", "--profile", "coursework", "--json", path]
+    inspect: list[str | Path] = [islands, "inspect", "--profile", "coursework", "--json", path]
     result = subprocess.run(inspect, capture_output=True, text=True, check=False)
     if result.returncode == 2:
         # More links than the program builds.

@@ -39,14 +39,13 @@ class Motors:
     """The motors of a body, by their links."""
 
     def __init__(self, body: Body) -> None:
+        """Motors before their first update."""
         self._links = [body.links[index] for index in body.driven()]
         self._phases = [0.0] * len(self._links)
 
     def update(self) -> list[float]:
         """The target speeds that follow, in rad/s."""
-        self._phases = [
-            (phase + link.phase_step_rad) % math.tau for phase, link in zip(self._phases, self._links)
-        ]
+        self._phases = [(phase + link.phase_step_rad) % math.tau for phase, link in zip(self._phases, self._links)]
         return [_speed(link.waveform, phase) for phase, link in zip(self._phases, self._links)]
 
 
@@ -143,7 +142,7 @@ PEERS: dict[str, Callable[..., Trial]] = {"PyBullet": try_in_pybullet, "MuJoCo":
 class Score:
     """What `islands evaluate` says of a creature."""
 
-    # The root's way in space, from after the first step to the end.
+    # The root's way in space, from after the first step to the end; NaN if the trial did not get there.
     displacement_m: float
     # The length of the root's path, if the program tells it.
     path_m: float | None
@@ -168,14 +167,15 @@ class Islands:
         if self.engine:
             options += ["--engine", self.engine]
         genomes = [creature.genome for creature in creatures]
-        command = [self.program, "evaluate", *options, *genomes]
+        command: list[str | Path] = [self.program, "evaluate", *options, *genomes]
         printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         result = json.loads(printed.splitlines()[-1])
         return result["wall_seconds"], [_score(genome) for genome in result["genomes"]]
 
 
 def _score(genome: dict) -> Score:
-    return Score(genome["fitness"], genome.get("path_m"), genome["outcome"] == "scored")
+    sound = genome["outcome"] == "scored"
+    return Score(genome["fitness"] if sound else math.nan, genome.get("path_m"), sound)
 
 
 def engines_of(program: Path) -> list[Islands]:

@@ -18,8 +18,8 @@ def enter(folder: Path) -> None:
     wanted = REQUIREMENTS.read_text()
     if not installed.exists() or installed.read_text() != wanted:
         print(f"Installing {', '.join(_pins())} in {folder}", file=sys.stderr)
-        venv.create(folder, with_pip=True, clear=True)
-        install = [python, "-m", "pip", "install", "--quiet", "--prefer-binary", "-r", REQUIREMENTS]
+        venv.create(folder, with_pip=True)
+        install: list[str | Path] = [python, "-m", "pip", "install", "--quiet", "--prefer-binary", "-r", REQUIREMENTS]
         subprocess.run(install, check=True, stdout=sys.stderr)
         installed.write_text(wanted)
     os.execv(python, [str(python), *sys.argv])

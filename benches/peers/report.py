@@ -52,20 +52,20 @@ def speed_tables(subsets: list[Subset], rounds: int) -> list[Table]:
     ours = [engine for engine in engines if engine not in PEERS]
     pairs = [(engine, peer) for engine in ours for peer in PEERS]
     rows = [[subset.name, str(subset.creatures)] for subset in subsets]
-    medians = f"median of {rounds} rounds"
+    of_rounds = "1 round" if rounds == 1 else f"{rounds} rounds"
     return [
         Table(
-            f"Evaluations a second, {medians}",
+            f"Evaluations a second, median of {of_rounds}",
             ["creatures", "number", *engines],
             [row + [_three(subset.evaluations_per_s(e)) for e in engines] for row, subset in zip(rows, subsets)],
         ),
         Table(
-            f"Steps a second, {medians}",
+            f"Steps a second, median of {of_rounds}",
             ["creatures", "number", *engines],
             [row + [f"{subset.steps_per_s(e):,.0f}" for e in engines] for row, subset in zip(rows, subsets)],
         ),
         Table(
-            f"How many times as fast, median of the ratios of {rounds} rounds, and their range",
+            f"How many times as fast, median of the ratios of {of_rounds}, and their range",
             ["creatures", "number", *(f"{engine} : {peer}" for engine, peer in pairs)],
             [row + [_ratio(subset, *pair) for pair in pairs] for row, subset in zip(rows, subsets)],
         ),
