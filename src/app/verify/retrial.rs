@@ -4,10 +4,9 @@ use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::check::{Check, counted};
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Gene as _, Individual, Problem};
+use crate::evolution::{Fitness, Gene as _, Individual, Problem, sharing};
 use crate::problems::Locomotion;
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
@@ -115,14 +114,15 @@ fn evaluate<'a>(
 ) -> BTreeMap<&'a [u8], Fitness> {
     let genomes: Vec<_> = genomes.into_iter().collect();
     let meter = Meter::new(genomes.len());
-    let evaluate = |&(key, genome): &(_, &[Gene])| {
+    let costs: Vec<u64> = genomes.iter().map(|(_, genome)| problem.cost(genome)).collect();
+    let found = sharing::dearest_first(&costs, |index| {
+        let (key, genome) = genomes[index];
         let evaluation = problem.evaluate(genome);
         meter.tick();
         (key, evaluation.fitness)
-    };
-    let found = genomes.par_iter().with_max_len(1).map(evaluate).collect();
+    });
     meter.finish();
-    found
+    found.into_iter().collect()
 }
 
 /// Equal genomes have equal bytes.
