@@ -18,6 +18,9 @@ pub mod sharing;
 pub mod survival;
 pub mod variation;
 
+#[cfg(test)]
+mod tests;
+
 pub use fitness::{Evaluation, Fitness, Outcome};
 pub use generation::Strategy;
 pub use individual::{Id, Individual};
