@@ -61,6 +61,13 @@ pub struct Outcome {
     pub waited_s: f64,
 }
 
+impl Outcome {
+    /// The share of the run that an island waits for immigrants, on average, in percent.
+    pub fn waits(&self, islands: u32) -> f64 {
+        self.waited_s / self.wall_s / f64::from(islands) * 100.0
+    }
+}
+
 /// When the last thread is done with a batch.
 pub fn makespan_s(jobs: &[Job], threads: usize, order: Order) -> f64 {
     let mut queue = jobs.to_vec();
@@ -123,7 +130,7 @@ impl Plan {
         }
     }
 
-    /// How many cores it keeps busy if nothing ever waits.
+    /// How many cores it keeps busy while nothing waits.
     pub fn cores(self) -> f64 {
         f64::from(self.islands) * self.threads as f64
     }

@@ -42,18 +42,21 @@ pub fn runs(
     traces: &BTreeMap<(u32, u32), Trace>,
 ) {
     println!("\nRuns, median of {} interleaved rounds, and the model of them:\n", walls_s[0].len());
-    println!("| islands | threads | lag | s | least–most | one core, s | efficiency | model, s |");
-    println!("|---|---|---|---|---|---|---|---|");
+    println!(
+        "| islands | threads | lag | s | least–most | one core, s | efficiency | model, s | its waits |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
     for (&(islands, threads, lag), walls_s) in runs.iter().zip(walls_s) {
         let trace = &traces[&(islands, lag)];
         let outcome = Plan::of(trace, threads / islands as usize).run(trace);
         let wall_s = median(walls_s);
         let efficiency = outcome.one_core_s / wall_s / threads as f64 * 100.0;
         println!(
-            "| {islands} | {threads} | {lag} | {wall_s:.2} | {} | {:.2} | {efficiency:.0} % | {:.2} |",
+            "| {islands} | {threads} | {lag} | {wall_s:.2} | {} | {:.2} | {efficiency:.0} % | {:.2} | {:.1} % |",
             spread(walls_s, 2),
             outcome.one_core_s,
-            outcome.wall_s
+            outcome.wall_s,
+            outcome.waits(islands)
         );
     }
 }
@@ -118,15 +121,14 @@ pub fn projection(trace: &Trace) {
         let (eager, usual) = (run(0, Order::Estimated), run(1, Order::Estimated));
         let arbitrary = run(1, Order::Arbitrary);
         let efficiency = |seconds: f64| usual.one_core_s / seconds / cores * 100.0;
-        let waits = |waited_s: f64, wall_s: f64| waited_s / wall_s / f64::from(islands) * 100.0;
         println!(
             "| {cores} | {islands} × {threads} | {:.1} % | {:.1} % | {:.1} % | {:.1} % | {:.1} % | {:.1} % | {:.1} |",
             efficiency(usual.amdahl_s),
             efficiency(arbitrary.wall_s),
             efficiency(eager.wall_s),
-            waits(eager.waited_s, eager.wall_s),
+            eager.waits(islands),
             efficiency(usual.wall_s),
-            waits(usual.waited_s, usual.wall_s),
+            usual.waits(islands),
             usual.one_core_s / usual.wall_s,
         );
     }
