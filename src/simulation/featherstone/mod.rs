@@ -9,6 +9,8 @@ mod kinematics;
 mod model;
 mod solver;
 mod spatial;
+#[cfg(test)]
+mod tests;
 
 use super::assembly::Assembly;
 use super::trial::Trial;
