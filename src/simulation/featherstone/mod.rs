@@ -29,7 +29,11 @@ pub struct FeatherstoneWorld {
     model: Model,
     step_s: f64,
     gravity_m_s2: f64,
+    /// Where the body is.
     configuration: Configuration,
+    /// Where it will be after half a step more: all dynamics are evaluated there.
+    midway: Configuration,
+    /// The places of the links midway, from the root's centre of mass there.
     places: Vec<Place>,
     /// The velocity of each link.
     velocities: Vec<Spatial>,
@@ -65,10 +69,12 @@ impl FeatherstoneWorld {
         let model = Model::new(assembly);
         let links = model.links.len();
         let root = assembly.parts[0].world_from_part;
+        let configuration = Configuration::new(root.translation.vector, root.rotation, links);
         let mut world = Self {
             step_s: trial.time_s(1),
             gravity_m_s2: trial.gravity_m_s2,
-            configuration: Configuration::new(root.translation.vector, root.rotation, links),
+            midway: configuration.clone(),
+            configuration,
             places: vec![Place::nowhere(); links],
             velocities: vec![Spatial::ZERO; links],
             momenta: vec![Spatial::ZERO; links],
@@ -86,7 +92,7 @@ impl FeatherstoneWorld {
             motor_impulses_nms: vec![0.0; links],
             model,
         };
-        world.configuration.place(&world.model, &mut world.places);
+        world.midway.place(&world.model, &mut world.places);
         world
     }
 
@@ -94,7 +100,7 @@ impl FeatherstoneWorld {
         let stance = Stance {
             places: &self.places,
             velocities: &self.velocities,
-            height_m: self.configuration.reference_m.z,
+            height_m: self.midway.position_m.z,
             step_s: self.step_s,
         };
         contact::find(&self.model.solids, stance, &mut self.touches);
@@ -207,12 +213,15 @@ impl FeatherstoneWorld {
         }
     }
 
-    /// Moves the body by its velocities, and the reference with its root.
+    /// Moves the body by its velocities, and looks half a step ahead.
     fn advance(&mut self) {
         let root = self.velocities[0];
-        let shift_m = root.linear() * self.step_s;
         self.configuration.advance(&root, &self.rates_rad_s, self.step_s);
-        self.configuration.place(&self.model, &mut self.places);
+        let before_m = self.midway.position_m;
+        self.midway.clone_from(&self.configuration);
+        self.midway.advance(&root, &self.rates_rad_s, 0.5 * self.step_s);
+        self.midway.place(&self.model, &mut self.places);
+        let shift_m = self.midway.position_m - before_m;
         for (velocity, momentum) in self.velocities.iter_mut().zip(&mut self.momenta) {
             *velocity = velocity.motion_about(&shift_m);
             *momentum = momentum.wrench_about(&shift_m);
@@ -222,7 +231,7 @@ impl FeatherstoneWorld {
     fn check(&self) -> Result<(), Outcome> {
         let rates: f64 = self.rates_rad_s.iter().sum();
         let root: f64 = self.velocities[0].0.iter().sum();
-        if (rates + root + self.configuration.reference_m.sum()).is_finite() {
+        if (rates + root + self.configuration.position_m.sum()).is_finite() {
             Ok(())
         } else {
             Err(Outcome::NotFinite)
@@ -251,12 +260,10 @@ impl World for FeatherstoneWorld {
     }
 
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
-        let place = &self.places[part];
-        let rotation = Rotation3::from_matrix_unchecked(place.rotation);
-        let world_from_link = Isometry3::from_parts(
-            Translation3::from(self.configuration.reference_m + place.origin_m),
-            UnitQuaternion::from_rotation_matrix(&rotation),
-        );
+        let (rotation, origin_m) = self.configuration.world_from_link(&self.model, part);
+        let rotation = Rotation3::from_matrix_unchecked(rotation);
+        let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+        let world_from_link = Isometry3::from_parts(Translation3::from(origin_m), rotation);
         world_from_link * self.model.links[part].link_from_part
     }
 
