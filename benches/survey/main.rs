@@ -27,7 +27,8 @@ const WHOLE: Size = Size { outcomes: 2000, rates: 300, engines: 200 };
 const TRIAL: Size = Size { outcomes: 6, rates: 2, engines: 4 };
 
 const SEED: u64 = 2000;
-const GENES_MAX: u32 = 10;
+/// As many genomes of one gene as of each other number up to ten.
+const GENES: [usize; 10] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10];
 /// Larger bodies are passed over: those of profile `coursework`, which never cuts, have hundreds of links.
 const LINKS_MAX: usize = 32;
 
@@ -48,11 +49,11 @@ fn main() {
     }
 }
 
-/// Random genomes of one to ten genes, as many of each, and their bodies.
-fn creatures(problem: &Locomotion, count: usize) -> Vec<(Vec<Gene>, Creature)> {
+/// Random genomes of so many genes in turn, and their bodies.
+fn creatures(problem: &Locomotion, genes: &[usize], count: usize) -> Vec<(Vec<Gene>, Creature)> {
     let source = Source { seed: SEED, island: 0 };
     let genome = |index: u32| {
-        let genes = 1 + (index % GENES_MAX) as usize;
+        let genes = genes[index as usize % genes.len()];
         let mut stream = source.stream(0, index, Purpose::Genesis);
         Locomotion { genes, ..*problem }.random_genome(&mut stream)
     };

@@ -1,6 +1,6 @@
 //! How the evaluations of random creatures end.
 
-use super::{GENES_MAX, LINKS_MAX, SEED, creatures, problem};
+use super::{GENES, LINKS_MAX, SEED, creatures, problem};
 use islands::creature::{Gene, Profile};
 use islands::evolution::{Outcome, Problem};
 use islands::problems::Locomotion;
@@ -12,15 +12,16 @@ use islands::simulation::Engine;
 /// If an evaluation did.
 pub fn survey(count: usize) {
     println!(
-        "## Outcomes\n\n{count} random genomes of each profile, 1 to {GENES_MAX} genes, at most {LINKS_MAX} links, \
-         seed {SEED}; each profile's first task\n"
+        "## Outcomes\n\n{count} random genomes of each profile, 1 to {} genes, at most {LINKS_MAX} links, \
+         seed {SEED}; each profile's first task\n",
+        GENES.len()
     );
     let names = Outcome::ALL.map(|outcome| outcome.to_string());
     println!("| profile | task | engine | {} |", names.join(" | "));
     println!("|---|---|---{}|", "|---".repeat(names.len()));
     let mut panics = 0;
     for profile in Profile::ALL {
-        let creatures = creatures(&problem(profile), count);
+        let creatures = creatures(&problem(profile), &GENES, count);
         let genomes: Vec<&[Gene]> = creatures.iter().map(|(genome, _)| genome.as_slice()).collect();
         for engine in Engine::ALL {
             let problem = Locomotion { engine, ..problem(profile) };

@@ -4,7 +4,7 @@
 //! much more a long step changes than one that is as fine as anybody computes: hence two reference rates.
 
 use super::statistics::{quantile, rank_correlation};
-use super::{GENES_MAX, SEED, creatures, problem};
+use super::{GENES, SEED, creatures, problem};
 use islands::creature::{Creature, Profile};
 use islands::evolution::Outcome;
 use islands::problems::Task;
@@ -27,11 +27,12 @@ struct Tried {
 
 /// Prints how evaluations end, how scores change and how much momentum comes from nothing, by rate.
 pub fn survey(count: usize) {
-    let creatures = creatures(&problem(Profile::Native), count);
+    let creatures = creatures(&problem(Profile::Native), &GENES, count);
     println!(
-        "## Steps a second\n\n{count} random native creatures, 1 to {GENES_MAX} genes, seed {SEED}, against \
+        "## Steps a second\n\n{count} random native creatures, 1 to {} genes, seed {SEED}, against \
          {REFERENCE_HZ} Hz: rank correlation (Spearman), median and 90th percentile of the change of the score; speed \
-         gained out of nothing\n"
+         gained out of nothing\n",
+        GENES.len()
     );
     println!(
         "| engine | Hz | scored | walk: ranks | median | p90 | travel: ranks | median | p90 | excess p99 | worst, \

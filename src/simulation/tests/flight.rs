@@ -21,8 +21,8 @@ fn flail(lab: &mut Lab, mut watch: impl FnMut(&mut Lab)) {
     }
 }
 
-/// A step counts the turning of the axes by its beginning, which is worth a percent or two in two seconds: a
-/// sixteenth of a step must make it far less.
+/// An engine that turns axes by where they were when a step began loses a percent or two in two seconds; with a
+/// sixteenth of the step it must be far less.
 #[test]
 fn limbs_that_flail_in_empty_space_change_neither_momentum_nor_spin() {
     let (push_m_s, turn_rad_s) = (Vector3::new(0.5, -0.3, 0.2), Vector3::new(1.0, 2.0, -1.5));
@@ -42,9 +42,6 @@ fn limbs_that_flail_in_empty_space_change_neither_momentum_nor_spin() {
                     let motion = lab.motion();
                     let pushed = (motion.momentum - start.momentum).norm() / whole.momentum.norm();
                     let turned = (motion.spin - start.spin).norm() / whole.spin.norm();
-                    eprintln!(
-                        "FIG {engine} {steps_per_s} flail {factor} {pushed:.2e} {turned:.2e}"
-                    );
                     assert!(pushed < tolerance / 2.0, "{engine}: {pushed} at {steps_per_s} Hz");
                     assert!(turned < tolerance, "{engine}: {turned} at {steps_per_s} Hz");
                 });
@@ -65,6 +62,6 @@ fn nothing_that_a_body_does_in_empty_space_moves_its_centre_of_mass() {
         let measured = simulate(&creature, &trial, engine).unwrap();
         let root_m = (measured.root_last_m - measured.root_first_m).norm();
         let centre_m = (measured.centre_last_m - measured.centre_first_m).norm();
-        assert!(root_m > 0.01 && centre_m < 0.01, "{engine}: {measured:?}");
+        assert!(root_m > 0.005 && centre_m < 0.003, "{engine}: {measured:?}");
     }
 }

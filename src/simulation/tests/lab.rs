@@ -2,6 +2,7 @@
 
 use super::super::Engine;
 use super::super::assembly::Assembly;
+use super::super::featherstone::FeatherstoneWorld;
 use super::super::rapier::RapierWorld;
 use super::super::trial::Trial;
 use super::super::world::{self, World};
@@ -31,6 +32,7 @@ impl Lab {
         let assembly = Assembly::new(creature, &trial);
         let world: Box<dyn World> = match engine {
             Engine::Rapier => Box::new(RapierWorld::new(&assembly, &trial)),
+            Engine::Featherstone => Box::new(FeatherstoneWorld::new(&assembly, &trial)),
         };
         Self { world, assembly, trial }
     }

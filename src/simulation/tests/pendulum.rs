@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 const LENGTH_M: f64 = 1.0;
 const RADIUS_M: f64 = 0.05;
 const SWING_S: f64 = 20.0;
-/// The longest step with which these tests are honest: six halves of a swing.
+/// The amplitude is the largest angle in so long a time, more than a period.
 const WINDOW_S: f64 = 2.0;
 
 /// A rod of 1 kg that swings within what it hangs on: links of a body do not touch. That is so heavy that it stands
@@ -75,7 +75,6 @@ fn a_pendulum_keeps_its_period_to_a_thousandth_and_its_amplitude_to_a_hundredth(
             let window = (WINDOW_S / step_s) as usize;
             let amplitude = |angles: &[f64]| angles.iter().copied().fold(0.0, f64::max);
             let kept = amplitude(&angles[angles.len() - window..]) / angle_rad;
-            eprintln!("FIG {engine} pendulum {angle_rad} {error:.2e} kept {kept:.5}");
             assert!(error.abs() < 1e-3, "{engine}: {error} of the period of {angle_rad} rad");
             assert!((kept - 1.0).abs() < 1e-2, "{engine}: {kept} of the amplitude {angle_rad} rad");
         }

@@ -49,9 +49,7 @@ fn error(engine: Engine, creature: &Creature, direction_rad: f64) -> f64 {
     lab.world.kick(direction * SPEED_M_S, Vector3::zeros());
     lab.run(2.0);
     let allowed_m = SPEED_M_S * SPEED_M_S / (2.0 * FRICTION * FRICTION * GRAVITY_M_S2);
-    let error = (lab.centre_of_mass() - start_m).xy().norm() / allowed_m - 1.0;
-    eprintln!("FIG {engine} slide {direction_rad:.2} {error:.2e}");
-    error
+    (lab.centre_of_mass() - start_m).xy().norm() / allowed_m - 1.0
 }
 
 #[test]
@@ -74,8 +72,7 @@ fn a_jointed_body_slides_as_far_as_friction_allows_in_every_direction() {
     }
 }
 
-/// Askew its front and rear wheels… several contacts share the load as the solver pleases, and one sweep over them
-/// a step does not settle how.
+/// Askew, rapier's single iteration a step leaves the friction of so many points 2 % short.
 #[test]
 fn a_train_slides_as_far_as_friction_allows_along_and_across_and_nearly_so_askew() {
     for engine in Engine::ALL {
