@@ -93,7 +93,7 @@ fn save(times: usize) -> (f64, f64) {
     for generation in 0..times {
         step.report.generation = generation as u32;
         step.island.generation = generation as u32;
-        step.new_champion = false;
+        step.champion = None;
         let before = Instant::now();
         logbook.record(&step, 1.0).expect("the disk has room");
         let between = Instant::now();

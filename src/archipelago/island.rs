@@ -4,7 +4,7 @@ use super::Archipelago;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::{Gene, Individual, Problem, Statistics};
+use crate::evolution::{Fitness, Gene, Individual, Problem, Statistics};
 use serde::{Deserialize, Serialize};
 
 /// The whole state of an island between two generations.
@@ -38,6 +38,34 @@ pub struct Report {
     pub immigrants: u32,
 }
 
+/// A champion of an island, better than all before it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "G: Gene")]
+pub struct Champion<G> {
+    /// The generation in which it became the champion.
+    pub generation: u32,
+    /// The champion.
+    pub individual: Individual<G>,
+    /// Its fitness in the eyes of [`Problem::confirm`], if it has a say.
+    pub confirmed: Option<Fitness>,
+}
+
+impl<G: Gene> Champion<G> {
+    fn crown<P: Problem<Gene = G>>(
+        problem: &P,
+        individual: &Individual<G>,
+        generation: u32,
+    ) -> Self {
+        let confirmed = problem.confirm(&individual.genome).map(|evaluation| evaluation.fitness);
+        Self { generation, individual: individual.clone(), confirmed }
+    }
+
+    /// What it is worth among champions: its confirmed fitness where there is one.
+    pub fn standing(&self) -> Fitness {
+        self.confirmed.unwrap_or(self.individual.fitness)
+    }
+}
+
 /// What comes out of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step<G> {
@@ -47,8 +75,8 @@ pub struct Step<G> {
     pub outbox: Option<Outbox<G>>,
     /// What the generation was like.
     pub report: Report,
-    /// Whether [`Island::champion`] is a new one.
-    pub new_champion: bool,
+    /// [`Island::champion`], if it is a new one.
+    pub champion: Option<Champion<G>>,
 }
 
 /// Generation 0 of an island: random genomes, evaluated.
@@ -64,8 +92,9 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
         effort,
         immigrants: 0,
     };
+    let crowned = Champion::crown(problem, &champion, 0);
     let island = Island { index: island, generation: 0, population, champion, effort };
-    Step { island, outbox: None, report, new_champion: true }
+    Step { island, outbox: None, report, champion: Some(crowned) }
 }
 
 /// The next generation of an island. `immigrants` are the outboxes that
@@ -95,8 +124,8 @@ pub fn step<P: Problem>(
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
-    let better = contender.filter(|contender| contender.fitness > champion.fitness).cloned();
-    let new_champion = better.is_some();
+    let better = contender.filter(|contender| contender.fitness > champion.fitness);
+    let crowned = better.map(|better| Champion::crown(problem, better, generation));
     let report = Report {
         island: index,
         generation,
@@ -108,8 +137,8 @@ pub fn step<P: Problem>(
         index,
         generation,
         population: next,
-        champion: better.unwrap_or(champion),
+        champion: crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone()),
         effort: spent.and(effort),
     };
-    Step { island, outbox, report, new_champion }
+    Step { island, outbox, report, champion: crowned }
 }

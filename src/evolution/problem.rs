@@ -40,6 +40,12 @@ pub trait Problem: Sync {
     /// Scores a genome.
     fn evaluate(&self, genome: &[Self::Gene]) -> Evaluation;
 
+    /// Scores a champion once more by a slower and more trusted judge than [`Problem::evaluate`], where there is one. It
+    /// decides nothing of what evolves, but which champion a run keeps.
+    fn confirm(&self, _genome: &[Self::Gene]) -> Option<Evaluation> {
+        None
+    }
+
     /// Recombines two genomes.
     fn crossover(
         &self,

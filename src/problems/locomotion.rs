@@ -113,6 +113,11 @@ impl Locomotion {
         engine: Engine::Rapier,
     };
 
+    /// The same problem under the engine of record, if this is another one.
+    pub fn judge(&self) -> Option<Self> {
+        (self.engine != Engine::Rapier).then_some(Self { engine: Engine::Rapier, ..*self })
+    }
+
     /// Expresses a genome.
     ///
     /// # Errors
@@ -186,6 +191,10 @@ impl Problem for Locomotion {
     fn evaluate(&self, genome: &[Gene]) -> Evaluation {
         let tried = catch_unwind(AssertUnwindSafe(|| self.try_out(genome)));
         self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+    }
+
+    fn confirm(&self, genome: &[Gene]) -> Option<Evaluation> {
+        self.judge().map(|judge| judge.evaluate(genome))
     }
 
     fn unit(&self) -> &'static str {
