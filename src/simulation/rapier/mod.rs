@@ -140,6 +140,13 @@ fn collider(solid: &Solid) -> rapier::ColliderBuilder {
             rapier::ColliderBuilder::cuboid(half.x as f32, half.y as f32, half.z as f32),
             Isometry3::identity(),
         ),
+        Shape::Sphere { radius_m } => {
+            (rapier::ColliderBuilder::ball(radius_m as f32), Isometry3::identity())
+        }
+        Shape::Capsule { radius_m, length_m } => (
+            rapier::ColliderBuilder::capsule_z((length_m / 2.0) as f32, radius_m as f32),
+            Isometry3::identity(),
+        ),
     };
     let pose = to_rapier(&(solid.part_from_solid * solid_from_collider));
     Scene::link_collider(builder).mass(solid.mass_kg as f32).position(pose)
