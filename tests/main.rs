@@ -5,6 +5,7 @@ mod cleaning;
 mod cli;
 mod course;
 mod determinism;
+mod exploits;
 mod faults;
 mod forger;
 mod format;

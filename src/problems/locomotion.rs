@@ -137,6 +137,13 @@ impl Locomotion {
     }
 
     fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+        let mut values = genome.iter().flat_map(|gene| gene.0);
+        if !values.all(f64::is_finite) {
+            return Err(Outcome::NotFinite);
+        }
+        if !genome.iter().all(evolution::Gene::is_valid) {
+            return Err(Outcome::TooLarge);
+        }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
         simulation::simulate(&creature, &self.task.trial(), self.engine)
     }

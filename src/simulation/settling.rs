@@ -14,7 +14,7 @@ use super::world::World;
 pub const ROUNDS_MAX: u32 = 10;
 
 /// A body whose parts are all slower than this is at rest, in m/s.
-const REST_M_S: f64 = 0.1;
+const REST_M_S: f64 = 0.05;
 /// … if they are for so long at the end of a round, in seconds: what swings stands still at its turning points.
 const REST_S: f64 = 0.1;
 

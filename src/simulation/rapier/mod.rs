@@ -107,9 +107,8 @@ impl World for RapierWorld {
     }
 
     fn halt(&mut self) {
-        if let Some((multibody, _)) = self
-            .joint()
-            .and_then(|joint| self.scene.world.multibody_joints.get_mut(joint))
+        if let Some((multibody, _)) =
+            self.joint().and_then(|joint| self.scene.world.multibody_joints.get_mut(joint))
         {
             multibody.generalized_velocity_mut().fill(0.0);
         }
