@@ -15,7 +15,7 @@ mod program;
 use islands::app::config::Config;
 use islands::archipelago::{Step, island};
 use islands::store::{Logbook, RunDir};
-use program::median;
+use program::{median, number};
 use serde_json::Value;
 use std::time::Instant;
 
@@ -102,8 +102,4 @@ fn save(times: usize) -> (f64, f64) {
         saves.push(between.elapsed().as_secs_f64() * 1e3);
     }
     (median(&saves), median(&records))
-}
-
-fn number(summary: &Value, name: &str) -> f64 {
-    summary[name].as_f64().expect("a summary has this number")
 }

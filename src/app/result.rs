@@ -49,7 +49,7 @@ pub struct Summary {
     pub profile: String,
     /// Evaluations that were really run.
     pub evaluations: u64,
-    /// Offspring whose fitness was known already.
+    /// Offspring whose fitness was known already, so that they were not evaluated.
     pub reused: u64,
     /// Evaluations that did not end in a score.
     pub failures: u64,

@@ -142,3 +142,36 @@ pub fn step<P: Problem>(
     };
     Step { island, outbox, report, champion: crowned }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Migration;
+    use super::super::tests::toy::{Bit, Toy, archipelago};
+    use super::*;
+    use crate::evolution::{Fitness, Id};
+
+    #[test]
+    fn where_nothing_is_varied_nobody_is_evaluated_whether_elite_offspring_or_immigrant() {
+        let migration = Migration { interval: 1, migrants: 1, lag: 0 };
+        let mut archipelago = archipelago(2, 7, migration);
+        let rates = &mut archipelago.strategy.variation;
+        (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);
+        (rates.shrink_rate, rates.grow_rate) = (0.0, 0.0);
+        let first = genesis(&Toy, &archipelago, 0).island;
+        // Its score is none that an evaluation would give it.
+        let immigrant = Individual {
+            id: Id { island: 1, generation: 0, index: 0 },
+            parents: [None; 2],
+            genome: vec![Bit(1); 9],
+            fitness: Fitness::new(1e6),
+        };
+        let outbox = Outbox { island: 1, epoch: 0, migrants: vec![immigrant.clone()] };
+        let Step { report, island, .. } = step(first, &[outbox], &Toy, &archipelago);
+        assert_eq!(report.effort, Effort { reused: 4, ..Effort::default() });
+        assert_eq!(report.immigrants, 1);
+        assert_eq!(island.population[0], immigrant, "it is the elite");
+        let copies = island.population.iter().filter(|it| it.genome == immigrant.genome);
+        assert!(copies.clone().count() > 1, "it has offspring");
+        assert!(copies.into_iter().all(|copy| copy.fitness == immigrant.fitness));
+    }
+}

@@ -74,6 +74,29 @@ pub fn express(
     profile: Profile,
     links_max: usize,
 ) -> Result<Creature, ExpressionError> {
+    let (traits, tree) = develop(genome, profile, links_max)?;
+    let morphology = morphology::build(&traits, &tree, profile);
+    let controller = controller::build(&traits, &tree, &morphology, profile);
+    Ok(Creature { traits, tree, morphology, controller })
+}
+
+/// How many links the body has that [`express`] makes of a genome, found without building it.
+///
+/// # Errors
+/// As [`express`].
+pub fn count_links(
+    genome: &[Gene],
+    profile: Profile,
+    links_max: usize,
+) -> Result<usize, ExpressionError> {
+    develop(genome, profile, links_max).map(|(_, tree)| tree.len())
+}
+
+fn develop(
+    genome: &[Gene],
+    profile: Profile,
+    links_max: usize,
+) -> Result<(Vec<Traits>, Vec<Copy>), ExpressionError> {
     if genome.is_empty() {
         return Err(ExpressionError::Empty);
     }
@@ -90,7 +113,5 @@ pub fn express(
         }
         tree
     };
-    let morphology = morphology::build(&traits, &tree, profile);
-    let controller = controller::build(&traits, &tree, &morphology, profile);
-    Ok(Creature { traits, tree, morphology, controller })
+    Ok((traits, tree))
 }

@@ -4,11 +4,10 @@ use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::check::{Check, counted};
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Gene as _, Problem};
+use crate::evolution::{Fitness, Gene as _, Problem, sharing};
 use crate::problems::Locomotion;
 use crate::simulation::Engine;
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
@@ -117,14 +116,15 @@ fn evaluate<'a>(
 ) -> BTreeMap<Key<'a>, Fitness> {
     let trials: Vec<_> = trials.into_iter().collect();
     let meter = Meter::new(trials.len());
-    let evaluate = |&(key, claim): &(_, &Claim)| {
+    let costs: Vec<u64> = trials.iter().map(|(_, claim)| problem.cost(claim.genome)).collect();
+    let found = sharing::dearest_first(&costs, |index| {
+        let (key, claim) = trials[index];
         let evaluation = Locomotion { engine: claim.engine, ..*problem }.evaluate(claim.genome);
         meter.tick();
         (key, evaluation.fitness)
-    };
-    let found = trials.par_iter().with_max_len(1).map(evaluate).collect();
+    });
     meter.finish();
-    found
+    found.into_iter().collect()
 }
 
 /// What is simulated once. Equal genomes have equal bytes.
