@@ -3,6 +3,7 @@
 mod chaos;
 mod cleaning;
 mod cli;
+mod confirmation;
 mod course;
 mod determinism;
 mod exploits;
