@@ -3,11 +3,11 @@
 mod hand;
 
 use islands::creature::gene::PARAMETER_COUNT;
-use islands::creature::{Gene, Profile};
+use islands::creature::{Gene, Profile, Shape, express};
 use islands::evolution::{Evaluation, Outcome, Problem};
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
-use islands::simulation::{Engine, Trajectory};
+use islands::simulation::{self, Engine, Trajectory};
 use std::collections::BTreeMap;
 
 fn problem(profile: Profile, task: Task) -> Locomotion {
@@ -67,6 +67,29 @@ fn a_box_that_nothing_drives_stays_where_it_lands() {
         let walk = Locomotion { engine, ..problem(Profile::Native, Task::Walk) };
         let scored = walk.evaluate(&[plain_gene(0.9)]);
         assert!(scored.fitness.finite().unwrap() < 0.01, "{engine}: {scored:?}");
+    }
+}
+
+#[test]
+fn a_solid_of_any_kind_comes_to_rest_on_its_side_or_foot() {
+    let (radius_m, length_m) = (0.2, 0.5);
+    // A native root lies along x: its own x axis points down.
+    let half_extents_m = nalgebra::vector![0.1, 0.3, 0.3];
+    let shapes = [
+        (Shape::Cuboid { half_extents_m }, 0.1),
+        (Shape::Cylinder { radius_m, length_m }, 0.2),
+        (Shape::Sphere { radius_m }, 0.2),
+        (Shape::Capsule { radius_m, length_m }, 0.2),
+    ];
+    let mut creature = express(&[plain_gene(0.1)], Profile::Native, 1).unwrap();
+    for engine in Engine::ALL {
+        for (shape, height_m) in shapes {
+            creature.morphology.links[0].shape = shape;
+            let (measured, film) = simulation::film(&creature, &Task::Walk.trial(), engine);
+            measured.unwrap();
+            let [.., z] = film.poses.last().unwrap()[0].position_m;
+            assert!((f64::from(z) - height_m).abs() < 0.005, "{shape:?} rests at {z} m");
+        }
     }
 }
 

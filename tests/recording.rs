@@ -292,6 +292,7 @@ fn kind(shape: &Shape) -> &'static str {
     match shape {
         Shape::Cuboid { .. } => "boxes",
         Shape::Cylinder { .. } => "cylinders",
+        Shape::Sphere { .. } | Shape::Capsule { .. } => "capsules",
     }
 }
 

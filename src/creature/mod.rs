@@ -22,14 +22,16 @@ pub mod gene;
 pub mod genome;
 pub mod morphology;
 pub mod profile;
+pub mod shape;
 pub mod traits;
 pub mod waveform;
 
 pub use controller::{Controller, Motor};
 pub use expansion::Copy;
 pub use gene::{Gene, PARAMETERS, Parameter};
-pub use morphology::{Joint, JointKind, Link, Morphology, Shape};
+pub use morphology::{Joint, JointKind, Link, Morphology};
 pub use profile::Profile;
+pub use shape::Shape;
 pub use traits::Traits;
 pub use waveform::Waveform;
 

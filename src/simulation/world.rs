@@ -16,6 +16,9 @@ pub trait World {
     /// Sets the speed that the motor of a part's hinge aims at, in rad/s.
     fn drive(&mut self, part: usize, target_rad_s: f64);
 
+    /// Takes all speed from the body: it stands still where it is.
+    fn halt(&mut self);
+
     /// Where a part is.
     fn world_from_part(&self, part: usize) -> Isometry3<f64>;
 

@@ -3,13 +3,13 @@
 //! All links of one kind of solid are one entity: their sizes are one row at the start, their poses one
 //! batch for the whole clip. That is a hundred times faster than a row a link and frame.
 
-use super::extent::{calm, every, half_height, mean, middle, reach};
+use super::extent::{along_z, calm, every, half_height, mean, middle, reach};
 use super::film::Screening;
 use super::{GENERATION, PLAYBACK, ViewError, palette};
 use crate::creature::morphology::Shape;
 use crate::simulation::trajectory::{Pose, Trajectory};
 use rerun::{
-    Boxes3D, Color, Cylinders3D, FillMode, LineStrips3D, Points3D, Quaternion, Radius,
+    Boxes3D, Capsules3D, Color, Cylinders3D, FillMode, LineStrips3D, Points3D, Quaternion, Radius,
     RecordingStream, SerializedComponentColumn, TimeColumn, Transform3D,
 };
 use std::iter::{RepeatN, repeat_n};
@@ -103,6 +103,7 @@ impl<'a> Take<'a> {
     fn bodies(&self, rec: &RecordingStream) -> Result<(), ViewError> {
         let mut boxes = Kind::default();
         let mut cylinders = Kind::default();
+        let mut capsules = Kind::default();
         for (link, shape) in self.trajectory().shapes.iter().enumerate() {
             let color = palette::link(self.screening.clip.island, link);
             match *shape {
@@ -112,10 +113,15 @@ impl<'a> Take<'a> {
                 Shape::Cylinder { radius_m, length_m } => {
                     cylinders.push(link, [length_m as f32, radius_m as f32], color);
                 }
+                Shape::Sphere { radius_m } => capsules.push(link, [0.0, radius_m as f32], color),
+                Shape::Capsule { radius_m, length_m } => {
+                    capsules.push(link, [length_m as f32, radius_m as f32], color);
+                }
             }
         }
         self.boxes(rec, &boxes)?;
-        self.cylinders(rec, &cylinders)
+        self.cylinders(rec, &cylinders)?;
+        self.capsules(rec, &capsules)
     }
 
     fn boxes(&self, rec: &RecordingStream, kind: &Kind<3>) -> Result<(), ViewError> {
@@ -152,6 +158,25 @@ impl<'a> Take<'a> {
         self.send(rec, path, poses)
     }
 
+    /// Capsules, and spheres as capsules without a length. No gene makes them: the champion before had none that
+    /// could stay.
+    fn capsules(&self, rec: &RecordingStream, kind: &Kind<2>) -> Result<(), ViewError> {
+        if kind.links.is_empty() {
+            return Ok(());
+        }
+        let path = self.path("champion/capsules");
+        let (lengths, radii): (Vec<_>, Vec<_>) = kind.sizes.iter().map(|&[l, r]| (l, r)).unzip();
+        let solids = Capsules3D::from_lengths_and_radii(lengths, radii)
+            .with_colors(kind.colors.iter().copied())
+            .with_fill_mode(FillMode::Solid);
+        rec.log(path.as_str(), &solids)?;
+        let poses = Capsules3D::update_fields()
+            .with_translations(self.starts(kind))
+            .with_quaternions(self.rotations(kind))
+            .columns(self.lengths(kind))?;
+        self.send(rec, path, poses)
+    }
+
     fn send(
         &self,
         rec: &RecordingStream,
@@ -169,6 +194,12 @@ impl<'a> Take<'a> {
 
     fn positions<const N: usize>(&self, kind: &Kind<N>) -> impl Iterator<Item = [f32; 3]> {
         self.poses(kind).map(|pose| pose.position_m)
+    }
+
+    /// Where capsules begin: rerun's stand on their first end, ours about their middle.
+    fn starts(&self, kind: &Kind<2>) -> impl Iterator<Item = [f32; 3]> {
+        let lengths = kind.sizes.iter().map(|&[length, _]| length).cycle();
+        self.poses(kind).zip(lengths).map(|(pose, length)| along_z(&pose, -length / 2.0))
     }
 
     fn rotations<const N: usize>(&self, kind: &Kind<N>) -> impl Iterator<Item = Quaternion> {

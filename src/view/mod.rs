@@ -19,6 +19,7 @@
 //! /islands/{i}/follow/flag
 //! /islands/{i}/champion/boxes      its links, an entity a kind of solid
 //! /islands/{i}/champion/cylinders
+//! /islands/{i}/champion/capsules   spheres too
 //! /islands/{i}/trail               the way it came
 //! /race                            the start line and the marks of the view of all islands
 //! /fitness/best/{i}  /fitness/mean/{i}  /diversity/{i}  /population/{i}

@@ -262,6 +262,13 @@ impl World for FeatherstoneWorld {
         self.targets_rad_s[part] = target_rad_s;
     }
 
+    fn halt(&mut self) {
+        self.velocities.fill(Spatial::ZERO);
+        self.momenta.fill(Spatial::ZERO);
+        self.rates_rad_s.fill(0.0);
+        self.axis_impulses.fill(0.0);
+    }
+
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
         let (rotation, origin_m) = self.configuration.world_from_link(&self.model, part);
         let rotation = Rotation3::from_matrix_unchecked(rotation);

@@ -71,11 +71,16 @@ impl RapierWorld {
     /// Takes away the damping that rapier gives to angular degrees of freedom, the free root's included:
     /// nothing but motors, gravity and the ground acts on a body.
     fn free_of_hidden_forces(&mut self) {
-        let Some(joint) = self.parts.iter().find_map(|(_, joint)| *joint) else { return };
+        let Some(joint) = self.joint() else { return };
         if let Some((multibody, _)) = self.scene.world.multibody_joints.get_mut(joint) {
             multibody.set_self_contacts_enabled(false);
             multibody.damping_mut().fill(0.0);
         }
+    }
+
+    /// A joint of the body: any of them leads to the one multibody.
+    fn joint(&self) -> Option<rapier::MultibodyJointHandle> {
+        self.parts.iter().find_map(|(_, joint)| *joint)
     }
 
     fn rigid_body(&self, part: usize) -> &rapier::RigidBody {
@@ -98,6 +103,19 @@ impl World for RapierWorld {
         if let Some(link) = multibody.link_mut(id) {
             let target_rad_s = target_rad_s as f32;
             link.joint.data.set_motor_velocity(rapier::JointAxis::AngX, target_rad_s, MOTOR_GAIN);
+        }
+    }
+
+    fn halt(&mut self) {
+        if let Some((multibody, _)) =
+            self.joint().and_then(|joint| self.scene.world.multibody_joints.get_mut(joint))
+        {
+            multibody.generalized_velocity_mut().fill(0.0);
+        }
+        for (rigid_body, _) in &self.parts {
+            let rigid_body = &mut self.scene.world.bodies[*rigid_body];
+            rigid_body.set_linvel(rapier::Vector::ZERO, false);
+            rigid_body.set_angvel(rapier::Vector::ZERO, false);
         }
     }
 
@@ -138,6 +156,13 @@ fn collider(solid: &Solid) -> rapier::ColliderBuilder {
         ),
         Shape::Cuboid { half_extents_m: half } => (
             rapier::ColliderBuilder::cuboid(half.x as f32, half.y as f32, half.z as f32),
+            Isometry3::identity(),
+        ),
+        Shape::Sphere { radius_m } => {
+            (rapier::ColliderBuilder::ball(radius_m as f32), Isometry3::identity())
+        }
+        Shape::Capsule { radius_m, length_m } => (
+            rapier::ColliderBuilder::capsule_z((length_m / 2.0) as f32, radius_m as f32),
             Isometry3::identity(),
         ),
     };
