@@ -4,7 +4,7 @@
 //! turned by the Cayley map, which takes no transcendental function and keeps the length of what it turns.
 
 use super::model::{Link, Model};
-use super::spatial::{Inertia, Spatial};
+use super::spatial::{RigidInertia, Spatial};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// The configuration of a body.
@@ -25,12 +25,10 @@ pub struct Place {
     pub rotation: Matrix3<f64>,
     /// The link's origin, in metres.
     pub origin_m: Vector3<f64>,
-    /// The link's centre of mass, in metres.
-    pub centre_m: Vector3<f64>,
     /// The motion of the link when its hinge turns by 1 rad/s: the joint's motion subspace (section 3.5).
     pub axis: Spatial,
-    /// Its rigid inertia.
-    pub inertia: Inertia,
+    /// Its inertia, and its centre of mass.
+    pub inertia: RigidInertia,
 }
 
 impl Configuration {
@@ -102,23 +100,27 @@ impl Place {
         Self {
             rotation: Matrix3::zeros(),
             origin_m: Vector3::zeros(),
-            centre_m: Vector3::zeros(),
             axis: Spatial::ZERO,
-            inertia: Inertia::ZERO,
+            inertia: RigidInertia {
+                mass_kg: 0.0,
+                centre_m: Vector3::zeros(),
+                about_centre: Matrix3::zeros(),
+            },
         }
     }
 
     #[inline]
     fn of(link: &Link, rotation: Matrix3<f64>, origin_m: Vector3<f64>) -> Self {
         let axis = rotation.column(0).into_owned();
-        let centre_m = origin_m + rotation * link.centre_m;
-        let about_centre = rotation * link.inertia_kg_m2 * rotation.transpose();
         Self {
             rotation,
             origin_m,
-            centre_m,
             axis: Spatial::new(axis, origin_m.cross(&axis)),
-            inertia: Inertia::rigid(link.mass_kg, &centre_m, &about_centre),
+            inertia: RigidInertia {
+                mass_kg: link.mass_kg,
+                centre_m: origin_m + rotation * link.centre_m,
+                about_centre: rotation * link.inertia_kg_m2 * rotation.transpose(),
+            },
         }
     }
 }

@@ -116,7 +116,7 @@ fn inverse_dynamics(
 /// The joint-space mass matrix by the composite-rigid-body algorithm (section 6.2).
 fn mass_matrix(world: &FeatherstoneWorld) -> DMatrix<f64> {
     let links = world.places.len();
-    let mut composite: Vec<_> = world.places.iter().map(|place| place.inertia).collect();
+    let mut composite: Vec<_> = world.places.iter().map(|place| place.inertia.spread()).collect();
     let mut matrix = DMatrix::zeros(links + 5, links + 5);
     for index in (1..links).rev() {
         let inertia = composite[index];
@@ -236,7 +236,7 @@ fn forward_dynamics_undoes_inverse_dynamics_and_has_every_coriolis_force() {
         let (mut world, _) = floating_world(seed, steps_per_s);
         (0..2).for_each(|_| world.step().unwrap());
         let (before, rates_before) = (world.velocities[0], world.rates_rad_s.clone());
-        world.add_gravity();
+        world.fall();
         world.attempt();
         let per_s = f64::from(steps_per_s);
         let root = (world.velocities[0] - before) * per_s;
@@ -280,18 +280,17 @@ fn a_motor_gives_what_its_hinge_transmits() {
                 (1..world.places.len()).for_each(|i| world.drive(i, rng.random_range(-3.0..3.0)));
             }
             world.find_contacts();
-            world.add_gravity();
+            world.fall();
             world.attempt();
             world.transmit();
             for motor in &world.solver.motors {
                 let i = motor.link;
-                let needed =
-                    world.places[i].axis.dot(&world.transmitted[i]) - world.axis_impulses[i];
+                let needed = world.motor_impulse_nms(i);
                 let error = (needed - f64::from(motor.impulse_nms)).abs();
                 let scale = world.transmitted[i].0.iter().fold(1e-3, |a: f64, b| a.max(b.abs()));
                 assert!(error < 1e-5 * scale, "{error} {needed} {scale}");
             }
-            (0..ATTEMPTS_MAX).for_each(|attempt| _ = world.release(attempt));
+            world.release(false);
             world.remember();
             world.advance();
         }
