@@ -63,13 +63,13 @@ impl Stance<'_> {
     /// Whether any point of a solid may touch.
     fn can_reach(&self, surface: &Surface, centre_m: &Vector3<f64>) -> bool {
         let velocity = &self.velocities[surface.link];
-        let fall_m_s =
-            surface.reach_m * velocity.angular().norm() - velocity.velocity_at(centre_m).z;
+        let turn_m_s = surface.reach_m * velocity.angular().norm();
+        let speed_m_s = velocity.velocity_at(centre_m).z.abs() + turn_m_s;
         let lowest_m = self.height_m + centre_m.z - surface.reach_m;
-        lowest_m - 0.5 * fall_m_s.abs() * self.step_s < MARGIN_M
+        lowest_m - 0.5 * speed_m_s * self.step_s < MARGIN_M
     }
 
-    /// The height of a point if it touches.
+    /// The height of a point when the step begins, half a step before its place, if it touches by the step's end.
     fn touches(&self, link: usize, point_m: &Vector3<f64>) -> Option<f64> {
         let rise_m = self.velocities[link].velocity_at(point_m).z * self.step_s;
         let height_m = self.height_m + point_m.z - 0.5 * rise_m;
