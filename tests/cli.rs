@@ -4,7 +4,7 @@ use crate::course::{FIXTURES, fixture};
 use crate::support::{World, assert_same};
 use expect_test::{Expect, expect};
 use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use islands::creature::{Gene, Profile, express};
+use islands::creature::{Gene, Profile, develop};
 use islands::evolution::Problem;
 use islands::formats::{Inspection, genome_csv};
 use islands::problems::{Locomotion, Task};
@@ -284,10 +284,10 @@ fn inspect_shows_our_bodies_and_cuts_them_as_told() {
             let arguments =
                 format!("inspect genome.csv --profile {profile} --max-links {max_links}");
             let found = world.json(&format!("{arguments} --json"));
-            let creature = express(&genome, profile, max_links).unwrap();
-            let expected = Inspection::new(&creature, profile, "genome.csv");
+            let development = develop(&genome, profile, max_links).unwrap();
+            let expected = Inspection::new(&development, profile, "genome.csv");
             assert_same(&found, &serde_json::to_value(expected).unwrap(), "inspection");
-            let links = creature.morphology.links.len();
+            let links = development.tree.len();
             assert!(links <= max_links);
             // A line a link below the heading.
             assert_eq!(world.islands(&arguments).stdout.lines().count(), links + 1);

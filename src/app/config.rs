@@ -2,7 +2,7 @@
 
 use super::Failure;
 use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
-use crate::creature::Profile;
+use crate::creature::{Profile, Scales};
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
 use crate::simulation::Engine;
@@ -88,6 +88,9 @@ pub struct Config {
     /// Threads of all islands together, at least one each; as many as there are cores if none is said. The result
     /// does not depend on it.
     pub threads: Option<usize>,
+    /// Scales of profile `coursework` that were changed.
+    #[serde(skip_serializing_if = "Scales::is_empty")]
+    pub scales: Scales,
     /// What launched the run: written by the program, ignored when it is read for a new run.
     pub launch: Option<Launch>,
 }
@@ -128,6 +131,7 @@ impl Default for Config {
             migration_lag: 1,
             checkpoint_interval: 1,
             threads: None,
+            scales: Scales::NONE,
             launch: None,
         }
     }
@@ -313,6 +317,7 @@ impl Config {
     pub fn problem(&self) -> Locomotion {
         Locomotion {
             profile: self.profile,
+            scales: self.scales,
             task: self.task,
             genes: self.genes,
             links_max: self.max_links,

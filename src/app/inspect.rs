@@ -3,7 +3,7 @@
 use super::cli::InspectArgs;
 use super::console::print;
 use super::{Failure, genomes};
-use crate::creature::{self, Creature, JointKind};
+use crate::creature::{self, Development, JointKind};
 use crate::formats::Inspection;
 
 /// Shows the body of the genome in a file.
@@ -14,26 +14,28 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     let links_max = genomes::links_max(args.max_links)?;
     let genome = genomes::read(&args.genome)?;
     let wrong = |error| Failure::usage(format!("cannot build {}: {error}", args.genome.display()));
-    let creature = creature::express(&genome, args.profile, links_max).map_err(wrong)?;
+    let development = creature::develop(&genome, args.profile, links_max).map_err(wrong)?;
     if args.json {
         let source = args.genome.file_name().unwrap_or(args.genome.as_os_str());
         let inspection =
-            Inspection::new(&creature, args.profile, source.to_string_lossy().into_owned());
+            Inspection::new(&development, args.profile, source.to_string_lossy().into_owned());
         print(
             &serde_json::to_string(&inspection).expect("a body is plain data, its numbers finite"),
         );
     } else {
-        table(&creature);
+        table(&development);
     }
     Ok(())
 }
 
-fn table(creature: &Creature) {
+fn table(development: &Development) {
+    let creature = development.creature();
     print(
         "link  name     parent  shape     length m  radius m   mass kg  joint     amplitude rad/s  torque N·m",
     );
-    for (index, (copy, link)) in creature.tree.iter().zip(&creature.morphology.links).enumerate() {
-        let traits = &creature.traits[copy.gene];
+    for (index, (copy, link)) in development.tree.iter().zip(&creature.morphology.links).enumerate()
+    {
+        let traits = &development.traits[copy.gene];
         let shape = link.shape.name();
         let joint = match link.joint.as_ref().map(|joint| joint.kind) {
             None => "root",

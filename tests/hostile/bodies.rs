@@ -84,7 +84,7 @@ pub fn genome_csv(data: &[u8]) {
     assert_eq!(again.clamped, []);
     for profile in Profile::ALL {
         let creature = express(&read.genome, profile, 16);
-        assert!(creature.is_ok_and(|it| it.tree.len() <= 16) || !profile.is_cut());
+        assert!(creature.is_ok_and(|it| it.morphology.links.len() <= 16) || !profile.is_cut());
     }
 }
 
