@@ -1,12 +1,13 @@
 //! What a viewer gets to see is what was scored.
 
 use crate::support::{Ending, TINY, World, await_generation, signal, until};
+use islands::archipelago::Champion;
 use islands::creature::{Gene, Profile, Shape};
 use islands::evolution::Fitness;
 use islands::formats::{genome_csv, metrics};
 use islands::problems::{Locomotion, Task};
 use islands::simulation::{Pose, Trajectory};
-use islands::store::{Champion, Entry, RecordLog, RunDir, checkpoint};
+use islands::store::{Entry, RecordLog, RunDir, checkpoint};
 use re_log_encoding::DecoderApp;
 use rerun::StoreKind;
 use rerun::log::{Chunk, LogMsg};
@@ -159,7 +160,7 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     // The next number after the one that it gets.
     individual.fitness = Fitness::new(individual.fitness.get().next_up());
     let champions: Vec<_> = (0..=31)
-        .map(|generation| Champion { generation, individual: individual.clone() })
+        .map(|generation| Champion { generation, individual: individual.clone(), confirmed: None })
         .collect();
     rewrite(&path, &champions);
 

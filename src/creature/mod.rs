@@ -94,6 +94,18 @@ pub fn express(
     Ok(develop(genome, reading, links_max)?.creature())
 }
 
+/// How many links the body has that [`express`] makes of a genome, found without building it.
+///
+/// # Errors
+/// As [`develop`].
+pub fn count_links(
+    genome: &[Gene],
+    reading: impl Into<Reading>,
+    links_max: usize,
+) -> Result<usize, ExpressionError> {
+    develop(genome, reading, links_max).map(|development| development.tree.len())
+}
+
 /// Develops a genome. A body of more than `links_max` links is cut to the first ones of the expansion's
 /// depth-first order; profile `coursework` never cuts, but refuses what is over [`profile::COURSEWORK_LINKS_MAX`].
 ///

@@ -55,7 +55,8 @@ pub struct Offspring<G> {
 pub struct Effort {
     /// Evaluations that were really run.
     pub evaluations: u64,
-    /// Offspring whose fitness was known already, since an equal genome had been evaluated.
+    /// Offspring whose fitness was known already: copies of residents, elites and immigrants among them, and of
+    /// their own siblings. Elites and immigrants themselves are no offspring, and never evaluated.
     pub reused: u64,
     /// How the evaluations that were run ended, in the order of [`Outcome::ALL`].
     pub outcomes: [u64; Outcome::ALL.len()],

@@ -119,6 +119,11 @@ impl Locomotion {
         Reading { profile: self.profile, scales: self.scales }
     }
 
+    /// The same problem under the engine of record, if this is another one.
+    pub fn judge(&self) -> Option<Self> {
+        (self.engine != Engine::Rapier).then_some(Self { engine: Engine::Rapier, ..*self })
+    }
+
     /// Expresses a genome.
     ///
     /// # Errors
@@ -198,6 +203,18 @@ impl Problem for Locomotion {
         self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
     }
 
+    fn confirm(&self, genome: &[Gene]) -> Option<Evaluation> {
+        self.judge().map(|judge| judge.evaluate(genome))
+    }
+
+    /// Links times steps, of a trial that runs to its end; what cannot be expressed costs nothing.
+    fn cost(&self, genome: &[Gene]) -> u64 {
+        // Whatever evaluating a genome contains must not come out here.
+        let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
+        let links = links.ok().and_then(Result::ok).unwrap_or(0);
+        links as u64 * u64::from(self.task.trial().steps())
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }
@@ -237,6 +254,30 @@ mod tests {
             changed += gene.0.iter().filter(|&&value| value != 0.5).count() as f64 / 17_000.0;
         }
         assert!((changed - 0.2_f64).abs() < 0.02, "{changed}");
+    }
+
+    #[test]
+    fn a_genome_costs_its_links_times_the_steps() {
+        for index in 0..39 {
+            let (profile, task) = (Profile::ALL[index % 3], Task::ALL[index / 3 % 3]);
+            let genes = 1 + index / 3;
+            let problem = Locomotion { profile, task, genes, links_max: 7, ..Locomotion::DEFAULT };
+            let genome = problem.random_genome(&mut stream(index as u32));
+            let links = problem.express(&genome).map_or(0, |it| it.morphology.links.len());
+            let steps = task.trial().steps() as usize;
+            assert_eq!(problem.cost(&genome), (links * steps) as u64);
+        }
+    }
+
+    #[test]
+    fn a_genome_that_is_refused_costs_nothing() {
+        let mut gene = Gene([0.5; PARAMETER_COUNT]);
+        // Its link is built twice on the one before it.
+        (gene.0[3], gene.0[6]) = (0.4, VALUE_MAX);
+        let coursework = Locomotion { profile: Profile::Coursework, ..problem() };
+        let steps = u64::from(Task::Walk.trial().steps());
+        assert_eq!([8, 10].map(|genes| coursework.cost(&vec![gene; genes])), [255 * steps, 0]);
+        assert_eq!(problem().cost(&[]), 0);
     }
 
     #[test]

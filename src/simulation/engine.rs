@@ -4,7 +4,7 @@ use crate::choice;
 use serde::{Deserialize, Serialize};
 
 /// A physics engine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Engine {
     /// rapier's multibodies: the engine of record.

@@ -216,8 +216,7 @@ impl<P: Problem> Ship<'_, P> {
         if let Some(outbox) = &step.outbox {
             self.exchange.publish(outbox)?;
         }
-        let champion = step.new_champion.then_some(&step.island.champion);
-        self.exchange.report(&step.report, seconds, champion)?;
+        self.exchange.report(&step.report, seconds, step.champion.as_ref())?;
         Ok(())
     }
 

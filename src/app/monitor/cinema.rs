@@ -3,12 +3,13 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::say;
+use super::super::result;
 use super::logs::Sighting;
+use crate::archipelago::Champion;
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Outcome, Problem};
 use crate::problems::Locomotion;
 use crate::simulation::Trajectory;
-use crate::store::Champion;
 use crate::view::{Clip, Draft, Live, Pace, Recorder, RunCard, ViewError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -114,7 +115,7 @@ impl Cinema {
 
     fn news(&self, island: u32, champion: &Champion<Gene>) -> String {
         let individual = &champion.individual;
-        let score = self.problem.show(individual.fitness);
+        let score = result::show(&self.problem, champion);
         let links = self.problem.express(&individual.genome).map_or_else(
             |_| String::new(),
             |creature| format!(", {} links", creature.morphology.links.len()),
@@ -130,7 +131,8 @@ impl Cinema {
     /// reported with, bit for bit: what is seen is what was scored.
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
-        let Champion { generation, individual } = champion;
+        let shown = result::show(&self.problem, &champion);
+        let Champion { generation, individual, .. } = champion;
         let Some((evaluation, trajectory)) = self.simulate(&individual.genome) else {
             return Ok(());
         };
@@ -143,7 +145,7 @@ impl Cinema {
             say(&news);
             self.recorder.event(Some(island), generation, &news)?;
         }
-        let label = format!("gen {generation} · {}", self.problem.show(individual.fitness));
+        let label = format!("gen {generation} · {shown}");
         Ok(self.recorder.champion(&Clip { island, generation, label, trajectory })?)
     }
 
