@@ -143,8 +143,8 @@ fn a_broken_file_is_refused_with_the_line_and_what_to_do() {
         line 3 has 1 column instead of 17: write a gene a line, its numbers separated by commas
         line 3 has 1 column instead of 17: write a gene a line, its numbers separated by commas
         line 3 has 16 columns instead of 17: write a gene a line, its numbers separated by commas
-        line 3 has 18 columns instead of 17: remove the additional one (link-geometry, usually column 6)
-        line 3 has 19 columns instead of 17: remove the additional ones (sensor gain and bias, usually columns 18 and 19)
+        line 3 has 18 columns instead of 17: leave out the additional one, link-geometry, usually with --drop-column 6
+        line 3 has 19 columns instead of 17: leave out the additional ones, sensor gain and bias, usually with --drop-column 18 --drop-column 19
         line 3 has 20 columns instead of 17: write a gene a line, its numbers separated by commas
         line 3, column 2 (link-length) holds "-0.1": write a number from 0 (included) to 1 (excluded) there
         line 3, column 5 (link-mass) holds "NaN": write a number from 0 (included) to 1 (excluded) there

@@ -109,6 +109,7 @@ impl SettingArgs {
             checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
             threads: self.threads.or(config.threads),
             scales: config.scales,
+            seed_genomes: config.seed_genomes,
             launch: None,
         }
     }

@@ -1,7 +1,7 @@
 //! Files for people and other programs.
 //!
 //! - [`genome_csv`] reads and writes genomes, in the course's format; [`course`] says ours in the course's terms.
-//! - [`inspection`] says in JSON what a genome became, link by link.
+//! - [`inspection`] says in JSON what a genome became, link by link; [`body_inspection`] what a body that was read is.
 //! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
 //! - [`urdf`] reads and writes bodies for other simulators; [`mjcf`] writes them for MuJoCo, [`stl`] for printers.
 //! - [`motion`] is how a body moved.
@@ -9,6 +9,7 @@
 //! Architecture invariant: nothing here opens a file or changes what it is given; each format reads from any
 //! reader or writes to any writer.
 
+pub mod body_inspection;
 pub mod course;
 pub mod genome_csv;
 pub mod inspection;
@@ -20,5 +21,6 @@ pub mod stl;
 pub mod urdf;
 mod xml;
 
+pub use body_inspection::BodyInspection;
 pub use genome_csv::{GenomeCsvError, ReadGenome};
 pub use inspection::Inspection;
