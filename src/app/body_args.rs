@@ -1,10 +1,11 @@
 //! What can be said about files of genomes and bodies.
 
+use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Reading};
 use crate::problems::Task;
 use crate::simulation::Engine;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use std::path::PathBuf;
 
 /// How a genome file is read.
@@ -131,7 +132,7 @@ pub struct ExportArgs {
     /// File of the genome or the body
     #[arg(value_name = "GENOME.csv|BODY.urdf")]
     pub genome: PathBuf,
-    /// What to write
+    /// What to write: csv, urdf, mjcf, stl or motion
     #[arg(long)]
     pub format: Format,
     /// The file to write; one that is there is replaced
@@ -148,16 +149,41 @@ pub struct ExportArgs {
 }
 
 /// A format to write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// The genome, for the course's program
+    /// The genome, for the course's program.
     Csv,
-    /// The body, for other simulators
+    /// The body, for other simulators.
     Urdf,
-    /// The body, for MuJoCo
+    /// The body, for MuJoCo.
     Mjcf,
-    /// The body, for printing
+    /// The body, for printing.
     Stl,
-    /// How it moves in its trial
+    /// How it moves in its trial.
     Motion,
+}
+
+impl Format {
+    /// Every format.
+    const ALL: [Format; 5] = [Format::Csv, Format::Urdf, Format::Mjcf, Format::Stl, Format::Motion];
+}
+
+impl std::fmt::Display for Format {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Format::Csv => "csv",
+            Format::Urdf => "urdf",
+            Format::Mjcf => "mjcf",
+            Format::Stl => "stl",
+            Format::Motion => "motion",
+        })
+    }
+}
+
+impl std::str::FromStr for Format {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("format", &Format::ALL, text)
+    }
 }

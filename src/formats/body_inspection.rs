@@ -41,6 +41,8 @@ pub struct BodyLink {
     pub inertia: [f64; 6],
     /// The place of the solid's centre at rest, the root's at the origin, in metres.
     pub rest_xyz: [f64; 3],
+    /// Its rotation then, a unit quaternion (x, y, z, w).
+    pub rest_xyzw: [f64; 4],
     /// `revolute` or `fixed`; none for the root.
     pub joint: Option<&'static str>,
     /// The hinge's axis in the joint's frame.
@@ -94,6 +96,7 @@ fn link(name: &str, link: &Link, pose: &Isometry3<f64>, motor: Option<&Motor>) -
         centre: link.centre_m().into(),
         inertia: [m.m11, m.m22, m.m33, m.m12, m.m13, m.m23],
         rest_xyz: pose.translation.vector.into(),
+        rest_xyzw: pose.rotation.coords.into(),
         joint: kind.map(|kind| if kind == JointKind::Fixed { "fixed" } else { "revolute" }),
         axis: match kind {
             Some(JointKind::Revolute(axis)) => Some(axis.into()),

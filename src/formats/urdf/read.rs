@@ -21,6 +21,7 @@ pub struct Robot {
 #[derive(Debug)]
 pub struct LinkElement {
     pub name: String,
+    pub line: u32,
     pub inertial: Option<Inertial>,
     pub solids: Vec<(Isometry3<f64>, Shape)>,
     /// Whether its solids are what is seen of it, since nothing is said of what touches.
@@ -110,6 +111,7 @@ fn link(node: &Node) -> Result<LinkElement, UrdfError> {
     let only_visual = touching.is_empty();
     Ok(LinkElement {
         name: attribute(node, "name")?.to_owned(),
+        line: line(node),
         inertial: child(node, "inertial").map(|inertial| self::inertial(&inertial)).transpose()?,
         // What is only to be seen may be a mesh, as long as there is something else to touch with.
         solids: if only_visual { of("visual")? } else { touching },
@@ -125,7 +127,7 @@ fn inertial(node: &Node) -> Result<Inertial, UrdfError> {
     }
     let mut moments_kg_m2 = Matrix3::zeros();
     if let Some(inertia) = child(node, "inertia") {
-        let at = |name| numbers(&inertia, name, Some([0.0])).map(|[moment]| moment);
+        let at = |name| within(MOMENT_MAX, &inertia, name, Some([0.0])).map(|[moment]| moment);
         let (xy, xz, yz) = (at("ixy")?, at("ixz")?, at("iyz")?);
         let (xx, yy, zz) = (at("ixx")?, at("iyy")?, at("izz")?);
         moments_kg_m2 = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
@@ -286,9 +288,21 @@ fn is_size(metres: f64) -> bool {
 
 /// No number in a body of any use is larger: neither metres nor kilograms nor newton metres.
 const NUMBER_MAX: f64 = 1e9;
+/// No moment of inertia is larger, in kg·m².
+const MOMENT_MAX: f64 = 1e30;
 
-/// The numbers of an attribute, exactly so many of them, all finite.
+/// The numbers of an attribute, exactly so many of them.
 fn numbers<const N: usize>(
+    node: &Node,
+    name: &'static str,
+    default: Option<[f64; N]>,
+) -> Result<[f64; N], UrdfError> {
+    within(NUMBER_MAX, node, name, default)
+}
+
+/// The same, none larger than `most`.
+fn within<const N: usize>(
+    most: f64,
     node: &Node,
     name: &'static str,
     default: Option<[f64; N]>,
@@ -300,7 +314,7 @@ fn numbers<const N: usize>(
     };
     let parsed: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
     let numbers = parsed.ok().and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
-    let sane = numbers.filter(|all| all.iter().all(|number| number.abs() <= NUMBER_MAX));
+    let sane = numbers.filter(|all| all.iter().all(|number| number.abs() <= most));
     sane.ok_or_else(|| {
         wrong(node, name, if N == 1 { "a number" } else { "its numbers, with spaces between them" })
     })

@@ -18,7 +18,8 @@ impl Tree {
     /// # Errors
     /// If names are not unique or lead nowhere, or it is no tree.
     pub fn of(robot: &Robot) -> Result<Self, UrdfError> {
-        let links = indexed(robot.links.iter().map(|link| (link.name.as_str(), 0)), "link")?;
+        let links =
+            indexed(robot.links.iter().map(|link| (link.name.as_str(), link.line)), "link")?;
         indexed(robot.joints.iter().map(|joint| (joint.name.as_str(), joint.line)), "joint")?;
         let mut children = vec![Vec::new(); robot.links.len()];
         let mut has_parent = vec![false; robot.links.len()];
