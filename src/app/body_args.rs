@@ -46,7 +46,8 @@ pub struct TrialArgs {
     pub task: Task,
     #[command(flatten)]
     pub read: ReadArgs,
-    /// What moves the body: rapier (the engine of record)
+    /// What moves the body: rapier (the engine of record) or featherstone (several times as
+    /// fast)
     #[arg(long, default_value_t)]
     pub engine: Engine,
     /// No body gets more links than this, but for profile coursework

@@ -1,13 +1,14 @@
 //! Bodies in motion: a trial under an engine.
 //!
 //! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it. An [`Engine`] moves it through
-//! the [`world`], today [`Engine::Rapier`]. [`actuator`] plays its motors,
+//! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors,
 //! [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it. [`simulate`] runs it and
 //! returns what was measured; what of that is worth how much is for a task to say.
 
 pub mod actuator;
 pub mod assembly;
 pub mod engine;
+mod featherstone;
 mod rapier;
 pub mod stability;
 pub mod trajectory;
@@ -22,6 +23,7 @@ use crate::creature::Creature;
 use crate::evolution::Outcome;
 use actuator::Actuators;
 use assembly::Assembly;
+use featherstone::FeatherstoneWorld;
 use nalgebra::{Vector2, Vector3};
 use rapier::RapierWorld;
 use stability::{Guard, Ledger};
@@ -103,6 +105,10 @@ fn run(
     match engine {
         Engine::Rapier => {
             Attempt::new(RapierWorld::new(&assembly, trial), &assembly, creature, observer)
+                .run(creature, trial)
+        }
+        Engine::Featherstone => {
+            Attempt::new(FeatherstoneWorld::new(&assembly, trial), &assembly, creature, observer)
                 .run(creature, trial)
         }
     }
