@@ -126,6 +126,10 @@ class InPyBullet:
         for joint in self.joints.values():
             pybullet.setJointMotorControl2(self.robot, joint, pybullet.VELOCITY_CONTROL, force=0)
 
+    def push(self, speed_m_s: float) -> None:
+        """Gives the root a velocity along x."""
+        pybullet.resetBaseVelocity(self.robot, [speed_m_s, 0, 0])
+
     def step(self) -> None:
         """Advances by 1/240 s."""
         pybullet.stepSimulation()
@@ -178,6 +182,10 @@ class InMuJoCo:
         self.motors = motors
         names = [motor.joint.replace("joint", "motor") for motor in motors]
         self.actuators = [mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_ACTUATOR, name) for name in names]
+
+    def push(self, speed_m_s: float) -> None:
+        """Gives the root a velocity along x."""
+        self.data.qvel[0] = speed_m_s
 
     def step(self) -> None:
         """Advances by 1/240 s."""

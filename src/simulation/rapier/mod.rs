@@ -218,6 +218,21 @@ mod tests {
         assert_eq!(pushed(&[3.0, 0.0, 0.0, 0.0]), Ok(()));
     }
 
+    /// What other engines are held against too, in `tests/engines`.
+    #[test]
+    fn a_box_that_is_pushed_slides_as_far_as_friction_lets_it() {
+        let log = express(&[Gene([0.5; PARAMETER_COUNT])], Profile::Native, 1).unwrap();
+        let log = Assembly::new(&log, &TRIAL);
+        let mut world = RapierWorld::new(&log, &TRIAL);
+        let push = rapier::Vector::new(3.0, 0.0, 0.0);
+        world.scene.world.bodies[world.parts[0].0].set_linvel(push, true);
+        let from = centre_of_mass(&world, &log);
+        (0..480).try_for_each(|_| world.step()).unwrap();
+        let slid_m = (centre_of_mass(&world, &log) - from).norm();
+        let expected_m = 3.0 * 3.0 / (2.0 * 0.25 * TRIAL.gravity_m_s2);
+        assert!((slid_m / expected_m - 1.0).abs() < 0.02, "{slid_m} m");
+    }
+
     #[test]
     fn a_push_from_nowhere_is_found() {
         assert_eq!(pushed(&[3.0, 0.0, 0.7, 0.0]), Err(Outcome::Unphysical));
