@@ -169,7 +169,7 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
         expect![[r#"
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-            cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
+            cannot build huge.csv: the body has more than 512 links, the most that profile coursework builds
             cannot write the recording good.csv/film.rrd: Not a directory (os error 20); choose another file with --out
             there is no run in nowhere: name the folder of one, such as runs/walk-seed7"#]],
     );
