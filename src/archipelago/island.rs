@@ -2,7 +2,7 @@
 
 use super::Archipelago;
 use super::migration::{self, Outbox};
-use crate::evolution::generation::{self, Effort, Moment};
+use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
 use crate::evolution::{Fitness, Gene, Individual, Problem, Statistics};
 use serde::{Deserialize, Serialize};
@@ -77,13 +77,15 @@ pub struct Step<G> {
     pub report: Report,
     /// [`Island::champion`], if it is a new one.
     pub champion: Option<Champion<G>>,
+    /// The genomes whose evaluation panicked.
+    pub panicked: Vec<Vec<G>>,
 }
 
 /// Generation 0 of an island: random genomes, evaluated.
 pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
-    let (population, effort) = generation::evaluate(problem, offspring, &[]);
+    let Brood { population, effort, panicked } = generation::evaluate(problem, offspring, &[]);
     let champion = best(&population).expect("a population has at least two individuals").clone();
     let report = Report {
         island,
@@ -94,7 +96,7 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
     };
     let crowned = Champion::crown(problem, &champion, 0);
     let island = Island { index: island, generation: 0, population, champion, effort };
-    Step { island, outbox: None, report, champion: Some(crowned) }
+    Step { island, outbox: None, report, champion: Some(crowned), panicked }
 }
 
 /// The next generation of an island. `immigrants` are the outboxes that
@@ -116,7 +118,8 @@ pub fn step<P: Problem>(
     let population = migration::immigrate::<P>(population, immigrants);
     let couples = generation::select(&population, strategy, moment);
     let offspring = generation::vary(problem, &population, &couples, strategy, moment);
-    let (offspring, effort) = generation::evaluate(problem, offspring, &population);
+    let Brood { population: offspring, effort, panicked } =
+        generation::evaluate(problem, offspring, &population);
     let next = generation::survive(&population, offspring, strategy);
     let outbox = migration
         .emigration(generation)
@@ -140,7 +143,7 @@ pub fn step<P: Problem>(
         champion: crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone()),
         effort: spent.and(effort),
     };
-    Step { island, outbox, report, champion: crowned }
+    Step { island, outbox, report, champion: crowned, panicked }
 }
 
 #[cfg(test)]

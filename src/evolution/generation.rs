@@ -145,13 +145,24 @@ pub fn vary<P: Problem>(
     couples.iter().enumerate().map(offspring).collect()
 }
 
+/// A brood that was scored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brood<G> {
+    /// Its individuals.
+    pub population: Population<G>,
+    /// What scoring them cost.
+    pub effort: Effort,
+    /// The genomes whose evaluation panicked, for whoever looks for the bug.
+    pub panicked: Vec<Vec<G>>,
+}
+
 /// Phase: scores the offspring. A genome that stands in `known` or twice in the brood is evaluated once
 /// at most: evaluation is a pure function of the genome.
 pub fn evaluate<P: Problem>(
     problem: &P,
     offspring: Vec<Offspring<P::Gene>>,
     known: &[Individual<P::Gene>],
-) -> (Population<P::Gene>, Effort) {
+) -> Brood<P::Gene> {
     fn key<G: super::Gene>(genome: &[G]) -> &[u8] {
         bytemuck::cast_slice(genome)
     }
@@ -166,6 +177,8 @@ pub fn evaluate<P: Problem>(
     let genomes: Vec<&[P::Gene]> = fresh.into_values().collect();
     let evaluations = problem.evaluate_batch(&genomes);
     let effort = effort(&evaluations, offspring.len());
+    let panicked = genomes.iter().zip(&evaluations).filter(|(_, e)| e.outcome == Outcome::Panicked);
+    let panicked = panicked.map(|(genome, _)| genome.to_vec()).collect();
     fitness.extend(genomes.iter().zip(&evaluations).map(|(g, e)| (key(g), e.fitness)));
 
     let scores: Vec<Fitness> = offspring.iter().map(|child| fitness[key(&child.genome)]).collect();
@@ -179,7 +192,7 @@ pub fn evaluate<P: Problem>(
             fitness,
         })
         .collect();
-    (population, effort)
+    Brood { population, effort, panicked }
 }
 
 fn effort(evaluations: &[Evaluation], offspring: usize) -> Effort {

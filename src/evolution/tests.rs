@@ -1,13 +1,13 @@
 //! What is evaluated, in which order, and what is not.
 
-use super::generation::{Effort, Offspring, evaluate};
+use super::generation::{Brood, Effort, Offspring, evaluate};
 use super::{Evaluation, Fitness, Gene, Id, Individual, Outcome, Problem};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// A genome is worth the sum of its numbers, costs as much as it is long, and fails with a 13 in it. Who is evaluated
+/// A genome is worth the sum of its numbers, costs as much as it is long, fails with a 13 in it and panics with a 66. Who is evaluated
 /// is written down.
 #[derive(Default)]
 struct Ledger(Mutex<Vec<Vec<Number>>>);
@@ -46,6 +46,9 @@ impl Problem for Ledger {
         if genome.contains(&Number(13)) {
             return Evaluation::failed(Outcome::Launched);
         }
+        if genome.contains(&Number(66)) {
+            return Evaluation::failed(Outcome::Panicked);
+        }
         Evaluation::scored(genome.iter().map(|number| f64::from(number.0)).sum())
     }
 
@@ -56,6 +59,10 @@ impl Problem for Ledger {
 
 fn genome(numbers: &[u8]) -> Vec<Number> {
     numbers.iter().copied().map(Number).collect()
+}
+
+fn child(numbers: &[u8]) -> Offspring<Number> {
+    Offspring { id: NOBODY, parents: [None; 2], genome: genome(numbers) }
 }
 
 const NOBODY: Id = Id { island: 0, generation: 0, index: 0 };
@@ -85,11 +92,9 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
     };
     let (elite, immigrant) = (resident(&[1], 100.0), resident(&[2], 200.0));
     let brood: [&[u8]; 7] = [&[7], &[1], &[3], &[2], &[3], &[1], &[13]];
-    let child =
-        |numbers: &[u8]| Offspring { id: NOBODY, parents: [None; 2], genome: genome(numbers) };
     let ledger = Ledger::default();
     let brood = brood.map(child).to_vec();
-    let (population, effort) = evaluate(&ledger, brood, &[elite, immigrant]);
+    let Brood { population, effort, .. } = evaluate(&ledger, brood, &[elite, immigrant]);
     let fitness: Vec<f64> = population.iter().map(|child| child.fitness.get()).collect();
     assert_eq!(fitness, [7.0, 100.0, 3.0, 200.0, 3.0, 100.0, f64::NEG_INFINITY]);
     let mut evaluated = ledger.0.into_inner().unwrap();
@@ -98,4 +103,12 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
     let mut outcomes = [0; Outcome::ALL.len()];
     (outcomes[Outcome::Scored as usize], outcomes[Outcome::Launched as usize]) = (2, 1);
     assert_eq!(effort, Effort { evaluations: 3, reused: 4, outcomes });
+}
+
+#[test]
+fn the_genomes_that_made_an_evaluation_panic_are_handed_on_once_each() {
+    let brood: [&[u8]; 6] = [&[7], &[2, 66], &[13], &[66], &[2, 66], &[1]];
+    let brood = evaluate(&Ledger::default(), brood.map(child).to_vec(), &[]);
+    assert_eq!(brood.panicked, [&[2, 66][..], &[66]].map(genome));
+    assert_eq!(brood.effort.outcomes[Outcome::Panicked as usize], 2);
 }

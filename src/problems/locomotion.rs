@@ -1,5 +1,6 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
+use super::progress;
 use crate::choice;
 use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales};
@@ -14,10 +15,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Task {
-    /// To get away: the horizontal displacement of its centre of mass after settling.
+    /// To get away: the horizontal displacement of its centre of mass after settling, if it keeps on:
+    /// [`progress::away_m`].
     #[default]
     Walk,
-    /// To keep moving: the length of that path, the lectures' later fitness.
+    /// To keep moving: the length of that path, the lectures' later fitness: [`progress::travelled_m`].
     Travel,
     /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
     /// It counts the fall, and is here for comparison.
@@ -35,8 +37,8 @@ impl Task {
                 steps_per_s: 240,
                 gravity_m_s2: 9.81,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
-                start: Start::LowestAt(0.1),
-                settle_s: 1.0,
+                start: Start::LeaningAt(0.1),
+                settle_s: 0.5,
                 scored_s: 8.0,
                 keeps_ledger: true,
             },
@@ -55,8 +57,8 @@ impl Task {
     /// What a measurement is worth, in metres.
     pub fn score(self, measured: &Measurement) -> f64 {
         match self {
-            Task::Walk => (measured.centre_last_m - measured.centre_first_m).xy().norm(),
-            Task::Travel => measured.path_m,
+            Task::Walk => progress::away_m(&measured.track_m),
+            Task::Travel => progress::travelled_m(&measured.track_m, measured.extent_m),
             Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
         }
     }
@@ -147,6 +149,13 @@ impl Locomotion {
     }
 
     fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+        let mut values = genome.iter().flat_map(|gene| gene.0);
+        if !values.all(f64::is_finite) {
+            return Err(Outcome::NotFinite);
+        }
+        if !genome.iter().all(evolution::Gene::is_valid) {
+            return Err(Outcome::TooLarge);
+        }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
         simulation::simulate(&creature, &self.task.trial(), self.engine)
     }

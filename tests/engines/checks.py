@@ -8,7 +8,7 @@ import numpy as np
 
 import hand
 from exports import Islands, Specimen
-from players import COURSE, STEPS_PER_S, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
+from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
 
 ENGINES = ("islands", "PyBullet", "MuJoCo")
 # Of masses, inertias and poses, relative to the size of the body.
@@ -24,7 +24,7 @@ def same_bodies(islands: Islands, specimens: list[Specimen]) -> list[str]:
     for specimen in specimens:
         urdf, mjcf = islands.export(specimen, "urdf"), islands.export(specimen, "mjcf")
         links = islands.inspect(urdf)["links"]
-        players = {"PyBullet": InPyBullet(urdf, COURSE, [], 0.0), "MuJoCo": InMuJoCo(mjcf, COURSE, [])}
+        players = {"PyBullet": InPyBullet(urdf, COURSE, []), "MuJoCo": InMuJoCo(mjcf, COURSE, [])}
         for engine, player in players.items():
             failures += [f"{specimen.file.name} in {engine}: {what}" for what in _differences(links, player)]
         failures += _joints(specimen, links, players["PyBullet"], players["MuJoCo"])
@@ -68,10 +68,11 @@ def _played(islands: Islands, specimen: Specimen, trial: Trial) -> dict[str, np.
     task = "course" if trial is COURSE else "walk"
     mine = islands.motion(specimen, task)
     period_s, motors = motors_of(urdf)
-    bullet = InPyBullet(urdf, trial, motors, float(mine[0, 0, 2]))
+    root = mine[0, 0]
+    bullet = InPyBullet(urdf, trial, motors, root)
     played = {"islands": mine, "PyBullet": play(bullet, trial, period_s)}
     _, motors = motors_of(urdf)
-    played["MuJoCo"] = play(InMuJoCo(mjcf, trial, motors), trial, period_s)
+    played["MuJoCo"] = play(InMuJoCo(mjcf, trial, motors, root), trial, period_s)
     return played
 
 
@@ -111,7 +112,7 @@ def _fall_m(poses: np.ndarray) -> float:
 
 def _period_s(poses: np.ndarray) -> float:
     """From the first to the last time that the bob passes below its hinge in one direction, after settling."""
-    swing = poses[FRAMES_PER_S:, 1, 1] - poses[FRAMES_PER_S:, 0, 1]
+    swing = poses[2 * FRAMES_PER_S :, 1, 1] - poses[2 * FRAMES_PER_S :, 0, 1]
     ups = [i - swing[i] / (swing[i + 1] - swing[i]) for i in range(len(swing) - 1) if swing[i] < 0 <= swing[i + 1]]
     return float((ups[-1] - ups[0]) / (len(ups) - 1) / FRAMES_PER_S)
 
@@ -126,10 +127,11 @@ def _turned_rad(poses: np.ndarray) -> float:
 def _slides_m(islands: Islands, urdf: Path) -> dict[str, float]:
     specimen = Specimen(urdf)
     found = {}
-    resting = Trial(COURSE.gravity_m_s2, hand.BOX_HALF_M, 0.0, 3.0)
-    bullet = InPyBullet(islands.export(specimen, "urdf"), resting, [], hand.BOX_HALF_M)
+    resting = Trial(COURSE.gravity_m_s2, 0.0, 3.0)
+    root = UPRIGHT + [0, 0, hand.BOX_HALF_M, 0, 0, 0, 0]
+    bullet = InPyBullet(islands.export(specimen, "urdf"), resting, [], root)
     bullet.push(hand.PUSH_M_S)
-    mujoco = InMuJoCo(islands.export(specimen, "mjcf"), resting, [])
+    mujoco = InMuJoCo(islands.export(specimen, "mjcf"), resting, [], root)
     mujoco.push(hand.PUSH_M_S)
     for engine, player in (("PyBullet", bullet), ("MuJoCo", mujoco)):
         poses = play(player, resting, 1.0)

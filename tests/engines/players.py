@@ -45,14 +45,15 @@ class Trial:
     """How a body is tried: as `islands` does in its tasks."""
 
     gravity_m_s2: float
-    # The height of the root at the start, or else the lowest point is 0.1 m above the ground.
-    root_m: float | None
     settle_s: float
     scored_s: float
 
 
-WALK = Trial(9.81, None, 1.0, 8.0)
-COURSE = Trial(10.0, 2.5, 0.0, 10.0)
+WALK = Trial(9.81, 0.5, 8.0)
+COURSE = Trial(10.0, 0.0, 10.0)
+
+# Where a root may begin: x, y, z in metres, and its rotation x, y, z, w.
+UPRIGHT = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Player(Protocol):
@@ -92,8 +93,8 @@ def motors_of(urdf: Path) -> tuple[float, list[Motor]]:
 class InPyBullet:
     """A body in PyBullet."""
 
-    def __init__(self, urdf: Path, trial: Trial, motors: list[Motor], height_m: float) -> None:
-        """Puts a body at its start, its root's origin at a height."""
+    def __init__(self, urdf: Path, trial: Trial, motors: list[Motor], root: np.ndarray | None = None) -> None:
+        """Puts a body where its root begins, or where the file says."""
         if not pybullet.isConnected():
             pybullet.connect(pybullet.DIRECT)
         pybullet.resetSimulation()
@@ -102,7 +103,9 @@ class InPyBullet:
         ground = pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE))
         pybullet.changeDynamics(ground, -1, lateralFriction=FRICTION)
         # Without this flag PyBullet makes inertias from bounding boxes.
-        self.robot = pybullet.loadURDF(str(urdf), [0, 0, height_m], flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
+        self.robot = pybullet.loadURDF(str(urdf), flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
+        if root is not None:
+            pybullet.resetBasePositionAndOrientation(self.robot, root[:3], root[3:])
         self.joints = {
             pybullet.getJointInfo(self.robot, joint)[1].decode(): joint
             for joint in range(pybullet.getNumJoints(self.robot))
@@ -171,13 +174,13 @@ class InPyBullet:
 class InMuJoCo:
     """A body in MuJoCo."""
 
-    def __init__(self, mjcf: Path, trial: Trial, motors: list[Motor]) -> None:
-        """Puts a body at its start."""
+    def __init__(self, mjcf: Path, trial: Trial, motors: list[Motor], root: np.ndarray | None = None) -> None:
+        """Puts a body where its root begins, or where the file says."""
         self.model = mujoco.MjModel.from_xml_path(str(mjcf))
         self.model.opt.gravity[2] = -trial.gravity_m_s2
         self.data = mujoco.MjData(self.model)
-        if trial.root_m is not None:
-            self.data.qpos[2] = trial.root_m
+        if root is not None:
+            self.data.qpos[:7] = [*root[:3], root[6], *root[3:6]]
         mujoco.mj_forward(self.model, self.data)
         self.motors = motors
         names = [motor.joint.replace("joint", "motor") for motor in motors]

@@ -24,18 +24,18 @@ pub struct Touch {
     pub link: usize,
     /// Where it is, from the reference, in metres.
     pub point_m: Vector3<f64>,
-    /// Its height over the ground, negative below it, in metres.
+    /// Its height over the ground when the step begins, negative below it, in metres.
     pub height_m: f64,
 }
 
 /// What there is to know of a body to find where it touches.
 #[derive(Debug, Clone, Copy)]
 pub struct Stance<'a> {
-    /// The places of the links.
+    /// The places of the links half a step ahead.
     pub places: &'a [Place],
     /// Their velocities.
     pub velocities: &'a [Spatial],
-    /// The reference's height over the ground, in metres.
+    /// The reference's height over the ground, half a step ahead, in metres.
     pub height_m: f64,
     /// The time of a step, in seconds.
     pub step_s: f64,
@@ -63,17 +63,17 @@ impl Stance<'_> {
     /// Whether any point of a solid may touch.
     fn can_reach(&self, surface: &Surface, centre_m: &Vector3<f64>) -> bool {
         let velocity = &self.velocities[surface.link];
-        let fall_m_s =
-            surface.reach_m * velocity.angular().norm() - velocity.velocity_at(centre_m).z;
+        let turn_m_s = surface.reach_m * velocity.angular().norm();
+        let speed_m_s = velocity.velocity_at(centre_m).z.abs() + turn_m_s;
         let lowest_m = self.height_m + centre_m.z - surface.reach_m;
-        lowest_m - fall_m_s.max(0.0) * self.step_s < MARGIN_M
+        lowest_m - 0.5 * speed_m_s * self.step_s < MARGIN_M
     }
 
-    /// The height of a point if it touches.
+    /// The height of a point when the step begins, half a step before its place, if it touches by the step's end.
     fn touches(&self, link: usize, point_m: &Vector3<f64>) -> Option<f64> {
-        let height_m = self.height_m + point_m.z;
-        let fall_m_s = -self.velocities[link].velocity_at(point_m).z;
-        (height_m - fall_m_s.max(0.0) * self.step_s < MARGIN_M).then_some(height_m)
+        let rise_m = self.velocities[link].velocity_at(point_m).z * self.step_s;
+        let height_m = self.height_m + point_m.z - 0.5 * rise_m;
+        (height_m + rise_m.min(0.0) < MARGIN_M).then_some(height_m)
     }
 }
 

@@ -11,6 +11,7 @@
 //! *Whitened* is said of velocities z = L q̇: in them kinetic energy is |z|²/2, an impulse with the Jacobian J changes
 //! them by y = L⁻ᵀJᵀ, and all masses are one.
 
+use super::Swing;
 use super::kinematics::Place;
 use super::model::Model;
 use super::spatial::{Inertia, Spatial};
@@ -71,7 +72,7 @@ impl Factor {
     pub fn factorise(&mut self, places: &[Place], is_held: &[bool]) {
         for ((link, place), is_held) in self.links.iter_mut().zip(places).zip(is_held) {
             link.axis = place.axis;
-            link.inertia = place.inertia;
+            link.inertia = place.inertia.spread();
             link.is_held = *is_held;
         }
         for index in (1..self.links.len()).rev() {
@@ -92,12 +93,12 @@ impl Factor {
         self.root = cholesky(&self.links[0].inertia);
     }
 
-    /// L⁻ᵀ of the generalised impulses: those that wrenches (or momenta) of the links make, plus one at each hinge.
-    /// Held hinges turn at their rates.
+    /// L⁻ᵀ of the generalised impulses: those that wrenches (or momenta) of the links make, plus what each
+    /// loose hinge's own axis adds. Held hinges turn at their rates.
     pub fn whiten(
         &mut self,
         wrenches: &[Spatial],
-        hinges: &[f64],
+        swings: &mut [Swing],
         rates: &[f64],
         to: &mut Whitened,
     ) {
@@ -110,7 +111,9 @@ impl Factor {
             let rest = if link.is_held {
                 link.inertia.times(&(link.axis * rates[index]))
             } else {
-                let whitened = (link.axis.dot(&link.wrench) + hinges[index]) * link.scale;
+                let swing = &mut swings[index];
+                swing.impulse_nms = link.bounded(swing);
+                let whitened = (link.axis.dot(&link.wrench) + swing.impulse_nms) * link.scale;
                 to.hinges[index] = whitened;
                 link.unit_wrench * whitened
             };
@@ -216,6 +219,15 @@ impl FactorLink {
     }
 }
 
+impl FactorLink {
+    /// The impulse of a swing, so far as it may change the hinge's rate.
+    #[inline]
+    fn bounded(&self, swing: &Swing) -> f64 {
+        let bound = swing.change_rad_s_max * inverse(self.scale * self.scale);
+        swing.impulse_nms.clamp(-bound, bound)
+    }
+}
+
 /// A number, or several that go the same way.
 trait Lanes: Copy {
     fn minus(self, other: Self, factor: f64) -> Self;
@@ -258,6 +270,12 @@ fn cholesky(matrix: &Inertia) -> [[f64; 6]; 6] {
         }
     }
     lower
+}
+
+/// 1/x, and nothing of zero.
+#[inline]
+fn inverse(x: f64) -> f64 {
+    if x > 0.0 { 1.0 / x } else { 0.0 }
 }
 
 /// 1/√x, and nothing of what is no positive number: a direction that has no inertia left does not move.

@@ -77,6 +77,11 @@ impl Model {
 }
 
 impl Link {
+    /// Whether it has a hinge that anything drives.
+    pub fn has_motor(&self) -> bool {
+        self.torque_nm_max > 0.0
+    }
+
     fn new(part: &Part, parts: &[Part]) -> Self {
         let link_from_part = link_from_part(part);
         let turn = link_from_part.rotation.to_rotation_matrix();

@@ -123,26 +123,38 @@ impl Mul<f64> for Spatial {
     }
 }
 
-/// A spatial inertia, rigid or articulated: six columns, symmetric.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Inertia([Spatial; 6]);
+/// The inertia of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidInertia {
+    /// The mass, in kilograms.
+    pub mass_kg: f64,
+    /// The centre of mass, from the reference, in metres.
+    pub centre_m: Vector3<f64>,
+    /// The rotational inertia about the centre of mass, in kg·m².
+    pub about_centre: Matrix3<f64>,
+}
 
-impl Inertia {
-    /// Nothing.
-    pub const ZERO: Self = Self([Spatial::ZERO; 6]);
-
-    /// The inertia of a rigid body about the reference (eq. 2.63), by its mass, its centre of mass and its
-    /// rotational inertia about that centre.
+impl RigidInertia {
+    /// The momentum that a motion has.
     #[inline]
-    pub fn rigid(mass_kg: f64, centre_m: &Vector3<f64>, about_centre: &Matrix3<f64>) -> Self {
-        let (x, y, z) = (centre_m.x, centre_m.y, centre_m.z);
+    pub fn times(&self, motion: &Spatial) -> Spatial {
+        let momentum = motion.velocity_at(&self.centre_m) * self.mass_kg;
+        let spin = applied(&self.about_centre, &motion.angular());
+        Spatial::new(spin + self.centre_m.cross(&momentum), momentum)
+    }
+
+    /// All six columns (eq. 2.63).
+    #[inline]
+    pub fn spread(&self) -> Inertia {
+        let mass_kg = self.mass_kg;
+        let (x, y, z) = (self.centre_m.x, self.centre_m.y, self.centre_m.z);
         let (mx, my, mz) = (mass_kg * x, mass_kg * y, mass_kg * z);
-        let [xx, yx, zx, _, yy, zy, _, _, zz] = about_centre.as_slice() else {
-            unreachable!("three by three")
-        };
-        let (yx, zx, zy) = (yx - my * x, zx - mz * x, zy - mz * y);
-        let (xx, yy, zz) = (xx + my * y + mz * z, yy + mx * x + mz * z, zz + mx * x + my * y);
-        Self([
+        let about = |row, column| self.about_centre[(row, column)];
+        let (yx, zx, zy) = (about(1, 0) - my * x, about(2, 0) - mz * x, about(2, 1) - mz * y);
+        let xx = about(0, 0) + my * y + mz * z;
+        let yy = about(1, 1) + mx * x + mz * z;
+        let zz = about(2, 2) + mx * x + my * y;
+        Inertia([
             Spatial([xx, yx, zx, 0.0, -mz, my]),
             Spatial([yx, yy, zy, mz, 0.0, -mx]),
             Spatial([zx, zy, zz, -my, mx, 0.0]),
@@ -151,6 +163,29 @@ impl Inertia {
             Spatial([my, -mx, 0.0, 0.0, 0.0, mass_kg]),
         ])
     }
+}
+
+/// The product of a matrix and a vector.
+#[inline]
+pub fn applied(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
+    let column = |i: usize| matrix.column(i) * vector[i];
+    column(0) + column(1) + column(2)
+}
+
+/// The product of two matrices.
+#[inline]
+pub fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
+    let column = |i: usize| applied(left, &right.column(i).into_owned());
+    Matrix3::from_columns(&[column(0), column(1), column(2)])
+}
+
+/// A spatial inertia, rigid or articulated: six columns, symmetric.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia([Spatial; 6]);
+
+impl Inertia {
+    /// Nothing.
+    pub const ZERO: Self = Self([Spatial::ZERO; 6]);
 
     /// The wrench that gives a motion in a unit of time, or its momentum.
     #[inline]
