@@ -4,7 +4,7 @@ use crate::course::{FIXTURES, fixture};
 use crate::support::{World, assert_same};
 use expect_test::{Expect, expect};
 use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use islands::creature::{Gene, Profile, express};
+use islands::creature::{Gene, Profile, develop};
 use islands::evolution::Problem;
 use islands::formats::{Inspection, genome_csv};
 use islands::problems::{Locomotion, Task};
@@ -169,7 +169,7 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
         expect![[r#"
             cannot use nowhere.csv: No such file or directory (os error 2); name a file with a gene a line, such as a run's champion.csv
             cannot use broken.csv: line 1 has 2 columns instead of 17: write a gene a line, its numbers separated by commas
-            cannot film huge.csv: the body has more than 512 links, the most that profile coursework builds
+            cannot build huge.csv: the body has more than 512 links, the most that profile coursework builds
             cannot write the recording good.csv/film.rrd: Not a directory (os error 20); choose another file with --out
             there is no run in nowhere: name the folder of one, such as runs/walk-seed7"#]],
     );
@@ -286,10 +286,10 @@ fn inspect_shows_our_bodies_and_cuts_them_as_told() {
             let arguments =
                 format!("inspect genome.csv --profile {profile} --max-links {max_links}");
             let found = world.json(&format!("{arguments} --json"));
-            let creature = express(&genome, profile, max_links).unwrap();
-            let expected = Inspection::new(&creature, profile, "genome.csv");
+            let development = develop(&genome, profile, max_links).unwrap();
+            let expected = Inspection::new(&development, profile, "genome.csv");
             assert_same(&found, &serde_json::to_value(expected).unwrap(), "inspection");
-            let links = creature.morphology.links.len();
+            let links = development.tree.len();
             assert!(links <= max_links);
             // A line a link below the heading.
             assert_eq!(world.islands(&arguments).stdout.lines().count(), links + 1);

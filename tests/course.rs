@@ -4,7 +4,7 @@ use crate::support::assert_same;
 use expect_test::expect;
 use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use islands::creature::profile::COURSEWORK_LINKS_MAX;
-use islands::creature::{ExpressionError, Gene, Profile, express};
+use islands::creature::{ExpressionError, Gene, Profile, develop, express};
 use islands::evolution::Problem;
 use islands::formats::{GenomeCsvError, Inspection, genome_csv};
 use islands::problems::Locomotion;
@@ -31,8 +31,8 @@ fn genome(name: &str) -> Vec<Gene> {
 fn every_genome_of_the_course_becomes_the_same_links_to_the_last_bit() {
     for i in 0..FIXTURES {
         let source = format!("genome_{i}.csv");
-        let creature = express(&genome(&source), Profile::Coursework, 1).unwrap();
-        let found = Inspection::new(&creature, Profile::Coursework, source.as_str());
+        let development = develop(&genome(&source), Profile::Coursework, 1).unwrap();
+        let found = Inspection::new(&development, Profile::Coursework, source.as_str());
         let expected = fixture(&format!("genome_{i}.expected.json"));
         let expected: Value = serde_json::from_str(&expected).unwrap();
         assert_same(&serde_json::to_value(found).unwrap(), &expected, &source);
@@ -143,8 +143,8 @@ fn a_broken_file_is_refused_with_the_line_and_what_to_do() {
         line 3 has 1 column instead of 17: write a gene a line, its numbers separated by commas
         line 3 has 1 column instead of 17: write a gene a line, its numbers separated by commas
         line 3 has 16 columns instead of 17: write a gene a line, its numbers separated by commas
-        line 3 has 18 columns instead of 17: remove the additional one (link-geometry, usually column 6)
-        line 3 has 19 columns instead of 17: remove the additional ones (sensor gain and bias, usually columns 18 and 19)
+        line 3 has 18 columns instead of 17: leave out the additional one, link-geometry, usually with --drop-column 6
+        line 3 has 19 columns instead of 17: leave out the additional ones, sensor gain and bias, usually with --drop-column 18 --drop-column 19
         line 3 has 20 columns instead of 17: write a gene a line, its numbers separated by commas
         line 3, column 2 (link-length) holds "-0.1": write a number from 0 (included) to 1 (excluded) there
         line 3, column 5 (link-mass) holds "NaN": write a number from 0 (included) to 1 (excluded) there

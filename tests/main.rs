@@ -1,5 +1,6 @@
 //! The promises of the crate, a module a subject.
 
+mod bodies;
 mod chaos;
 mod cleaning;
 mod cli;
@@ -11,6 +12,7 @@ mod faults;
 mod forger;
 mod format;
 mod hostile;
+mod imports;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;

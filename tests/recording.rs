@@ -2,7 +2,7 @@
 
 use crate::support::{Ending, TINY, World, await_generation, signal, until};
 use islands::archipelago::Champion;
-use islands::creature::{Gene, Profile, Shape};
+use islands::creature::{Gene, Profile};
 use islands::evolution::Fitness;
 use islands::formats::{genome_csv, metrics};
 use islands::problems::{Locomotion, Task};
@@ -287,15 +287,6 @@ where
     records.into_iter().for_each(|record| log.append(record).unwrap());
 }
 
-/// The entity that shows a champion's links of this shape.
-fn kind(shape: &Shape) -> &'static str {
-    match shape {
-        Shape::Cuboid { .. } => "boxes",
-        Shape::Cylinder { .. } => "cylinders",
-        Shape::Sphere { .. } | Shape::Capsule { .. } => "capsules",
-    }
-}
-
 /// The positions and rotations of the links of one kind in a frame.
 type Frame = (Vec<[f32; 3]>, Vec<[f32; 4]>);
 
@@ -320,9 +311,9 @@ impl Recording {
         let trial = task.trial();
         let end_s = trial.time_s(trial.steps());
         let shown = film.times_s.iter().filter(|&&time_s| time_s < end_s).count();
-        for name in ["boxes", "cylinders"] {
+        for (name, shape) in [("boxes", "box"), ("cylinders", "cylinder")] {
             let links: Vec<usize> =
-                (0..film.shapes.len()).filter(|&i| kind(&film.shapes[i]) == name).collect();
+                (0..film.shapes.len()).filter(|&i| film.shapes[i].name() == shape).collect();
             if links.is_empty() {
                 continue;
             }

@@ -1,10 +1,9 @@
 //! The command line.
 
+use super::body_args::ChangeArgs;
+pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
 use super::config::FREE;
 use super::settings::SettingArgs;
-use crate::creature::Profile;
-use crate::problems::Task;
-use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -20,7 +19,9 @@ use std::path::PathBuf;
   islands run --n 4 --seed 7         the same, with a seed that fixes the result to the last bit
   islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
-  islands replay champion.csv --out walk.rrd && rerun walk.rrd"
+  islands replay champion.csv --out walk.rrd && rerun walk.rrd
+  islands export champion.csv --format urdf --out walker.urdf
+  islands import elites/ --out genomes && islands run --profile coursework --seed-genomes genomes"
 )]
 pub struct Cli {
     #[command(subcommand)]
@@ -71,10 +72,14 @@ pub enum Command {
     Resume(Box<ResumeArgs>),
     /// Score genomes
     Evaluate(EvaluateArgs),
-    /// Show the body that a genome describes
+    /// Show the body that a genome or a URDF describes
     Inspect(InspectArgs),
-    /// Film genomes for the Rerun viewer
+    /// Film genomes, and bodies from URDF, for the Rerun viewer
     Replay(ReplayArgs),
+    /// Take in genomes of the course, whatever state their files are in
+    Import(ImportArgs),
+    /// Write a creature for other programs: as the course's CSV, URDF, MJCF, STL or motion
+    Export(ExportArgs),
     /// Record and serve a run, under way or over; `run` starts one by itself
     Monitor(MonitorArgs),
     /// Check that a run's folder holds what it claims, by simulating its champions again
@@ -91,6 +96,12 @@ pub enum Command {
 pub struct RunArgs {
     #[command(flatten)]
     pub settings: SettingArgs,
+    /// Genomes to begin with: files, folders or patterns such as 'elites/*.csv'. Every island begins with as many
+    /// of them as it has room for, the rest is random. The run keeps a copy
+    #[arg(long, value_name = "GLOB", num_args = 1.., help_heading = "Genetic algorithm")]
+    pub seed_genomes: Vec<PathBuf>,
+    #[command(flatten, next_help_heading = "Genetic algorithm")]
+    pub changes: ChangeArgs,
     /// A file that says the same as these flags, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
@@ -141,24 +152,6 @@ pub struct OutputArgs {
     pub json: bool,
 }
 
-/// How a genome file is read and tried.
-#[derive(Debug, Clone, Copy, Args)]
-pub struct TrialArgs {
-    /// What the creature has to do: walk, travel or course
-    #[arg(long, default_value_t)]
-    pub task: Task,
-    /// How genes are read: native, lecture or coursework
-    #[arg(long, default_value_t)]
-    pub profile: Profile,
-    /// What moves the body: rapier (the engine of record) or featherstone (several times as
-    /// fast)
-    #[arg(long, default_value_t)]
-    pub engine: Engine,
-    /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = 32, value_name = "L")]
-    pub max_links: usize,
-}
-
 /// Scoring.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
@@ -178,28 +171,11 @@ pub struct EvaluateArgs {
     pub json: bool,
 }
 
-/// Looking at a body.
-#[derive(Debug, Args)]
-pub struct InspectArgs {
-    /// File of the genome
-    #[arg(value_name = "GENOME.csv")]
-    pub genome: PathBuf,
-    /// How genes are read: native, lecture or coursework
-    #[arg(long, default_value_t)]
-    pub profile: Profile,
-    /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = 32, value_name = "L")]
-    pub max_links: usize,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// Filming.
 #[derive(Debug, Args)]
 pub struct ReplayArgs {
-    /// Files of genomes; several of them race
-    #[arg(required = true, value_name = "GENOME.csv")]
+    /// Files of genomes or bodies; several of them race
+    #[arg(required = true, value_name = "GENOME.csv|BODY.urdf")]
     pub genomes: Vec<PathBuf>,
     /// The recording to write
     #[arg(long, value_name = "FILE.rrd")]

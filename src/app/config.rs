@@ -1,8 +1,9 @@
 //! The whole of a run in one struct.
 
 use super::Failure;
+use super::seeds::SeedGenomes;
 use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
-use crate::creature::Profile;
+use crate::creature::{Profile, Scales};
 use crate::evolution::{Selection, Strategy, Variation};
 use crate::problems::{Locomotion, Task};
 use crate::simulation::Engine;
@@ -88,6 +89,12 @@ pub struct Config {
     /// Threads of all islands together, at least one each; as many as there are cores if none is said. The result
     /// does not depend on it.
     pub threads: Option<usize>,
+    /// Scales of profile `coursework` that were changed.
+    #[serde(skip_serializing_if = "Scales::is_empty")]
+    pub scales: Scales,
+    /// The genomes that the islands begin with, if not all are random: the run's folder keeps them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seed_genomes: Option<SeedGenomes>,
     /// What launched the run: written by the program, ignored when it is read for a new run.
     pub launch: Option<Launch>,
 }
@@ -128,6 +135,8 @@ impl Default for Config {
             migration_lag: 1,
             checkpoint_interval: 1,
             threads: None,
+            scales: Scales::NONE,
+            seed_genomes: None,
             launch: None,
         }
     }
@@ -187,6 +196,7 @@ impl Config {
         self.check_ranges()?;
         self.check_genes()?;
         self.check_migrants()?;
+        self.scales.check(self.profile).map_err(|error| Failure::usage(error.to_string()))?;
         match self.seed {
             Some(seed) if seed > SEED_MAX => {
                 Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
@@ -313,6 +323,7 @@ impl Config {
     pub fn problem(&self) -> Locomotion {
         Locomotion {
             profile: self.profile,
+            scales: self.scales,
             task: self.task,
             genes: self.genes,
             links_max: self.max_links,

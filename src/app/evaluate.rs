@@ -44,7 +44,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         )));
     }
     let problem = args.trial.problem()?;
-    let read = |path: &PathBuf| genomes::read(path);
+    let read = |path: &PathBuf| genomes::read(path, &args.trial.read);
     let genomes: Vec<Vec<Gene>> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
@@ -61,7 +61,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
     let steps = whole as f64 * f64::from(args.trial.task.trial().steps());
     let scores = Scores {
         task: args.trial.task.to_string(),
-        profile: args.trial.profile.to_string(),
+        profile: args.trial.read.profile.to_string(),
         genomes: args.genomes.iter().zip(&evaluations).map(score).collect(),
         evaluations: evaluations.len(),
         threads: pool.current_num_threads(),

@@ -1,42 +1,141 @@
-//! Genome files that the user names.
+//! Genome and body files that the user names.
 
 use super::Failure;
-use super::cli::TrialArgs;
+use super::cli::{ReadArgs, TrialArgs};
 use super::config::LINKS_MAX;
 use super::console::say;
-use crate::creature::Gene;
-use crate::formats::genome_csv;
+use super::table::harmless;
+use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::{Creature, Gene, Reading};
+use crate::formats::urdf::{self, ReadBody};
+use crate::formats::{ReadGenome, genome_csv};
 use crate::problems::Locomotion;
 use crate::store::file;
+use std::fmt::Display;
 use std::path::Path;
 
 /// The largest file of a genome, in bytes: the longest genome that can be read, in the longest useful form.
 const FILE_BYTES_MAX: usize = 64 << 20;
-/// The most clamped values that are reported one by one.
-const CLAMPED_SHOWN: usize = 20;
+/// The most clamped values, and notes on a body, that are reported one by one.
+const SHOWN: usize = 20;
+/// The most columns that may be left out.
+const DROPPED_MAX: usize = 64;
+
+/// What a file that the user names may be.
+#[derive(Debug)]
+pub enum Specimen {
+    /// A genome.
+    Genome(Vec<Gene>),
+    /// A body.
+    Body(Box<ReadBody>),
+}
+
+impl Specimen {
+    /// Reads a file, and says what of it does not count or had to be changed.
+    ///
+    /// # Errors
+    /// One sentence that names the file and what to do.
+    pub fn read(path: &Path, args: &ReadArgs) -> Result<Self, Failure> {
+        let dropped = dropped(&args.changes.drop_columns)?;
+        let bytes = bytes(path)?;
+        let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+        if text.trim_ascii_start().first() == Some(&b'<') {
+            return body(text, path).map(|body| Self::Body(Box::new(body)));
+        }
+        genome(&bytes, path, dropped).map(Self::Genome)
+    }
+
+    /// The creature that it is.
+    ///
+    /// # Errors
+    /// One sentence that names the file and what is wrong.
+    pub fn creature(
+        &self,
+        path: &Path,
+        reading: Reading,
+        links_max: usize,
+    ) -> Result<Creature, Failure> {
+        match self {
+            Self::Body(body) => Ok(body.creature.clone()),
+            Self::Genome(genome) => {
+                crate::creature::express(genome, reading, links_max).map_err(|error| {
+                    Failure::usage(format!("cannot build {}: {error}", path.display()))
+                })
+            }
+        }
+    }
+}
 
 /// Reads a genome, and says so if values had to be clamped.
 ///
 /// # Errors
 /// One sentence that names the file and what to do.
-pub fn read(path: &Path) -> Result<Vec<Gene>, Failure> {
-    let wrong = |error: &dyn std::fmt::Display| {
-        Failure::usage(format!("cannot use {}: {error}", path.display()))
-    };
-    let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| {
-        wrong(&format!(
-            "{}; name a file with a gene a line, such as a run's champion.csv",
-            error.reason()
-        ))
-    })?;
-    let read = genome_csv::read(bytes.as_slice()).map_err(|error| wrong(&error))?;
-    for clamped in read.clamped.iter().take(CLAMPED_SHOWN) {
+pub fn read(path: &Path, args: &ReadArgs) -> Result<Vec<Gene>, Failure> {
+    genome(&bytes(path)?, path, dropped(&args.changes.drop_columns)?)
+}
+
+/// Reads a genome; what could not be read is for the caller to say.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String> {
+    let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
+    genome_csv::read_without(bytes.as_slice(), dropped).map_err(|error| error.to_string())
+}
+
+/// The columns to leave out, if they can be.
+///
+/// # Errors
+/// One sentence that says what to change.
+pub fn dropped(columns: &[usize]) -> Result<&[usize], Failure> {
+    let most = PARAMETER_COUNT + columns.len();
+    let are_there = columns.iter().all(|column| (1..=most).contains(column));
+    let twice = (1..columns.len()).any(|i| columns[..i].contains(&columns[i]));
+    match columns.len() <= DROPPED_MAX && are_there && !twice {
+        true => Ok(columns),
+        false => Err(Failure::usage(format!(
+            "--drop-column takes different columns from 1 to {most} of lines with {most}"
+        ))),
+    }
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
+    file::read(path, FILE_BYTES_MAX).map_err(|error| {
+        wrong(
+            path,
+            &format!(
+                "{}; name a file with a gene a line, such as a run's champion.csv",
+                error.reason()
+            ),
+        )
+    })
+}
+
+fn wrong(path: &Path, error: &dyn Display) -> Failure {
+    Failure::usage(format!("cannot use {}: {error}", path.display()))
+}
+
+fn genome(bytes: &[u8], path: &Path, dropped: &[usize]) -> Result<Vec<Gene>, Failure> {
+    let read = genome_csv::read_without(bytes, dropped).map_err(|error| wrong(path, &error))?;
+    for clamped in read.clamped.iter().take(SHOWN) {
         say(&format!("warning: {}: {clamped}", path.display()));
     }
-    if let more @ 1.. = read.clamped.len().saturating_sub(CLAMPED_SHOWN) {
+    if let more @ 1.. = read.clamped.len().saturating_sub(SHOWN) {
         say(&format!("warning: {}: {more} more values are just under 1 now", path.display()));
     }
     Ok(read.genome)
+}
+
+fn body(text: &[u8], path: &Path) -> Result<ReadBody, Failure> {
+    if text.len() > urdf::BYTES_MAX {
+        return Err(wrong(path, &format!("it is larger than {} bytes", urdf::BYTES_MAX)));
+    }
+    let text = str::from_utf8(text).map_err(|_| wrong(path, &"it is not UTF-8 text"))?;
+    let body = urdf::read(text).map_err(|error| wrong(path, &error))?;
+    for note in body.notes.iter().take(SHOWN) {
+        say(&format!("warning: {}: {}", path.display(), harmless(note)));
+    }
+    Ok(body)
 }
 
 /// The bound of a body, if it may be asked for: development goes as deep.
@@ -49,14 +148,28 @@ pub fn links_max(wish: usize) -> Result<usize, Failure> {
     fine.then_some(wish).ok_or_else(wrong)
 }
 
+impl ReadArgs {
+    /// What the numbers of a gene mean, if that makes sense.
+    ///
+    /// # Errors
+    /// One sentence that says what to change.
+    pub fn checked(&self) -> Result<Reading, Failure> {
+        let reading = self.reading();
+        let fine = reading.scales.check(reading.profile);
+        fine.map(|()| reading).map_err(|error| Failure::usage(error.to_string()))
+    }
+}
+
 impl TrialArgs {
     /// The problem that a genome is tried with.
     ///
     /// # Errors
-    /// If more links are asked for than may be.
+    /// If more links are asked for than may be, or scales that the profile has not.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, profile, engine, max_links } = *self;
-        let links_max = links_max(max_links)?;
-        Ok(Locomotion { profile, task, engine, links_max, ..Locomotion::default() })
+        let Self { task, read, engine, max_links } = self;
+        let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
+        let Reading { profile, scales } = reading;
+        let (task, engine) = (*task, *engine);
+        Ok(Locomotion { profile, scales, task, engine, links_max, ..Locomotion::default() })
     }
 }

@@ -1,56 +1,116 @@
-//! `islands inspect`: the body that a genome describes.
+//! `islands inspect`: the body that a genome or a URDF describes.
 
+use super::Failure;
 use super::cli::InspectArgs;
 use super::console::print;
-use super::{Failure, genomes};
-use crate::creature::{self, Creature, JointKind};
-use crate::formats::Inspection;
+use super::genomes::{self, Specimen};
+use super::table::lay_out;
+use crate::creature::{self, Development, JointKind, Link, Motor};
+use crate::formats::urdf::ReadBody;
+use crate::formats::{BodyInspection, Inspection};
+use std::path::Path;
 
-/// Shows the body of the genome in a file.
+/// Shows the body in a file.
 ///
 /// # Errors
 /// If it cannot be read or expressed.
 pub fn run(args: &InspectArgs) -> Result<(), Failure> {
-    let links_max = genomes::links_max(args.max_links)?;
-    let genome = genomes::read(&args.genome)?;
-    let wrong = |error| Failure::usage(format!("cannot build {}: {error}", args.genome.display()));
-    let creature = creature::express(&genome, args.profile, links_max).map_err(wrong)?;
-    if args.json {
-        let source = args.genome.file_name().unwrap_or(args.genome.as_os_str());
-        let inspection =
-            Inspection::new(&creature, args.profile, source.to_string_lossy().into_owned());
-        print(
-            &serde_json::to_string(&inspection).expect("a body is plain data, its numbers finite"),
-        );
-    } else {
-        table(&creature);
+    let (links_max, reading) = (genomes::links_max(args.max_links)?, args.read.checked()?);
+    match Specimen::read(&args.genome, &args.read)? {
+        Specimen::Body(body) if args.json => {
+            print(&json(&BodyInspection::new(&body, source(&args.genome))));
+        }
+        Specimen::Body(body) => show_body(&body),
+        Specimen::Genome(genome) => {
+            let wrong =
+                |error| Failure::usage(format!("cannot build {}: {error}", args.genome.display()));
+            let development = creature::develop(&genome, reading, links_max).map_err(wrong)?;
+            match args.json {
+                true => print(&json(&Inspection::new(
+                    &development,
+                    reading.profile,
+                    source(&args.genome),
+                ))),
+                false => show_genome(&development),
+            }
+        }
     }
     Ok(())
 }
 
-fn table(creature: &Creature) {
+fn json(inspection: &impl serde::Serialize) -> String {
+    serde_json::to_string(inspection).expect("a body is plain data, its numbers finite")
+}
+
+fn source(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn show_genome(development: &Development) {
     print(
         "link  name     parent  shape     length m  radius m   mass kg  joint     amplitude rad/s  torque N·m",
     );
-    for (index, (copy, link)) in creature.tree.iter().zip(&creature.morphology.links).enumerate() {
-        let traits = &creature.traits[copy.gene];
-        let shape = link.shape.name();
-        let joint = match link.joint.as_ref().map(|joint| joint.kind) {
-            None => "root",
-            Some(JointKind::Fixed) => "fixed",
-            Some(JointKind::Revolute(_)) => "hinge",
-        };
-        let (amplitude, torque) =
-            creature.controller.motors[index].map_or_else(Default::default, |motor| {
-                (format!("{:.2}", motor.amplitude_rad_s), format!("{:.1}", motor.torque_nm_max))
-            });
+    let creature = development.creature();
+    for (index, (copy, link)) in development.tree.iter().zip(&creature.morphology.links).enumerate()
+    {
+        let traits = &development.traits[copy.gene];
+        let [amplitude, torque] = said(creature.controller.motors[index].as_ref());
         print(&format!(
-            "{index:>4}  {:<8} {:>6}  {shape:<9} {:>8.3}  {:>8.3} {:>9.3}  {joint:<8} {amplitude:>16} {torque:>11}",
+            "{index:>4}  {:<8} {:>6}  {:<9} {:>8.3}  {:>8.3} {:>9.3}  {:<8} {amplitude:>16} {torque:>11}",
             copy.name(index),
             copy.parent.map_or_else(|| "-".to_owned(), |parent| parent.to_string()),
+            link.shape.name(),
             traits.length_m,
             traits.radius_m,
             link.mass_kg,
+            joint(link),
         ));
     }
+}
+
+fn show_body(body: &ReadBody) {
+    let heads = [
+        "link",
+        "name",
+        "parent",
+        "shape",
+        "size m",
+        "mass kg",
+        "joint",
+        "amplitude rad/s",
+        "torque N·m",
+    ];
+    let mut rows = vec![heads.map(str::to_owned)];
+    let links = body.creature.morphology.links.iter().zip(&body.link_names);
+    for (index, (link, name)) in links.enumerate() {
+        let size = link.shape.half_extents_m() * 2.0;
+        let [amplitude, torque] = said(body.creature.controller.motors[index].as_ref());
+        rows.push([
+            index.to_string(),
+            name.clone(),
+            link.joint.as_ref().map_or_else(|| "-".to_owned(), |joint| joint.parent.to_string()),
+            link.shape.name().to_owned(),
+            format!("{:.3} × {:.3} × {:.3}", size.x, size.y, size.z),
+            format!("{:.3}", link.mass_kg),
+            joint(link).to_owned(),
+            amplitude,
+            torque,
+        ]);
+    }
+    print(&lay_out(&rows));
+}
+
+fn joint(link: &Link) -> &'static str {
+    match link.joint.as_ref().map(|joint| joint.kind) {
+        None => "root",
+        Some(JointKind::Fixed) => "fixed",
+        Some(JointKind::Revolute(_)) => "hinge",
+    }
+}
+
+/// A motor's top speed and torque.
+fn said(motor: Option<&Motor>) -> [String; 2] {
+    motor.map_or_else(Default::default, |motor| {
+        [format!("{:.2}", motor.amplitude_rad_s), format!("{:.1}", motor.torque_nm_max)]
+    })
 }

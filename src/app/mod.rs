@@ -1,20 +1,24 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli` and `settings` are what can be said, [`config`] the whole of a run in one struct. `run` is the launcher: it
+//! `cli`, `settings` and `body_args` are what can be said, [`config`] the whole of a run in one struct. `run` is the launcher: it
 //! starts a process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they
 //! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
-//! `evaluate`, `inspect` and `replay` look at single `genomes`. `console` prints and reads the clock, `table` lays out.
+//! `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export` takes them
+//! elsewhere; `seeds` are genomes that a run begins with. `console` prints and reads the clock, `table` lays out.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
+mod body_args;
 mod clean;
 mod cli;
 pub mod config;
 mod console;
 mod evaluate;
+mod export;
 mod genomes;
+mod import;
 mod inspect;
 mod island;
 mod kinship;
@@ -22,6 +26,7 @@ mod monitor;
 mod replay;
 mod result;
 mod run;
+mod seeds;
 mod settings;
 mod table;
 mod verify;
@@ -41,6 +46,8 @@ pub fn main() -> ExitCode {
         Some(Command::Evaluate(args)) => evaluate::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),
+        Some(Command::Import(args)) => import::run(&args),
+        Some(Command::Export(args)) => export::run(&args),
         Some(Command::Monitor(args)) => monitor::run(&args),
         Some(Command::Verify(args)) => verify::run(&args),
         Some(Command::Clean(args)) => clean::run(&args),

@@ -1,36 +1,36 @@
-//! `islands replay`: films genomes.
+//! `islands replay`: films genomes and bodies.
 
 use super::Failure;
 use super::cli::ReplayArgs;
 
-/// Films the genomes in the files that are named, side by side.
+/// Films the creatures in the files that are named, genomes or bodies, side by side.
 ///
 /// # Errors
 /// If one cannot be read or expressed, or the recording cannot be written.
 #[cfg(feature = "view")]
 pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
     use super::console::print;
-    use super::genomes;
+    use super::genomes::Specimen;
     use crate::evolution::Problem;
     use crate::view::{Clip, Draft, Pace, Recorder, RunCard};
 
     let problem = args.trial.problem()?;
-    let genomes: Vec<_> =
-        args.genomes.iter().map(|path| genomes::read(path)).collect::<Result<_, _>>()?;
+    let read = |path| Specimen::read(path, &args.trial.read);
+    let specimens: Vec<_> = args.genomes.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
     let trial = args.trial.task.trial();
     let names: Vec<String> =
         args.genomes.iter().map(|path| format!("- {}\n", path.display())).collect();
     let card = RunCard {
-        islands: genomes.len() as u32,
+        islands: specimens.len() as u32,
         unit: problem.unit().to_owned(),
         description_markdown: format!("# A replay\n\n{}", names.concat()),
         topology_edges: Vec::new(),
         pace: Pace::for_run(0, trial.settle_s + trial.scored_s),
     };
     let mut films = Vec::new();
-    for (genome, path) in genomes.iter().zip(&args.genomes) {
-        let wrong = |error| Failure::usage(format!("cannot film {}: {error}", path.display()));
-        films.push(problem.film(genome).map_err(wrong)?);
+    for (specimen, path) in specimens.iter().zip(&args.genomes) {
+        let creature = specimen.creature(path, problem.reading(), problem.links_max)?;
+        films.push(problem.film_body(&creature));
     }
     let elsewhere = |error| Failure::usage(format!("{error}; choose another file with --out"));
     let draft = Draft::beside(&args.out).map_err(elsewhere)?;

@@ -109,6 +109,8 @@ impl SettingArgs {
             migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
             checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
             threads: self.threads.or(config.threads),
+            scales: config.scales,
+            seed_genomes: config.seed_genomes,
             launch: None,
         }
     }

@@ -1,6 +1,7 @@
 //! The gene: 17 numbers from 0 (included) to 1 (excluded), and the table that says what each is for.
 
 use super::profile::Profile;
+use super::scales::Reading;
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -18,8 +19,8 @@ pub struct Gene(pub [f64; PARAMETER_COUNT]);
 
 impl Gene {
     /// What the value of parameter `i` of [`PARAMETERS`] means in a profile: a number of its range.
-    pub fn value(&self, i: usize, profile: Profile) -> f64 {
-        let Use { from, to, .. } = PARAMETERS[i].used(profile);
+    pub fn value(&self, i: usize, reading: impl Into<Reading>) -> f64 {
+        let Use { from, to, .. } = reading.into().used(i);
         from + self.0[i] * (to - from)
     }
 }

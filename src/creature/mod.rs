@@ -22,6 +22,7 @@ pub mod gene;
 pub mod genome;
 pub mod morphology;
 pub mod profile;
+pub mod scales;
 pub mod shape;
 pub mod traits;
 pub mod waveform;
@@ -29,23 +30,40 @@ pub mod waveform;
 pub use controller::{Controller, Motor};
 pub use expansion::Copy;
 pub use gene::{Gene, PARAMETERS, Parameter};
-pub use morphology::{Joint, JointKind, Link, Morphology};
+pub use morphology::{Inertia, Joint, JointKind, Link, Morphology};
 pub use profile::Profile;
+pub use scales::{Reading, Scales};
 pub use shape::Shape;
 pub use traits::Traits;
 pub use waveform::Waveform;
 
-/// A genome expressed, with every stage of its development.
+/// A body and what moves it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Creature {
-    /// What each gene says, in the order of the genes.
-    pub traits: Vec<Traits>,
-    /// Which gene became which link, in the order of the links.
-    pub tree: Vec<Copy>,
     /// The body.
     pub morphology: Morphology,
     /// What moves it.
     pub controller: Controller,
+}
+
+/// How a genome develops: what its genes say, and the links that they become.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Development {
+    /// What each gene says, in the order of the genes.
+    pub traits: Vec<Traits>,
+    /// Which gene became which link, in the order of the links.
+    pub tree: Vec<Copy>,
+    profile: Profile,
+}
+
+impl Development {
+    /// What it leads to.
+    pub fn creature(&self) -> Creature {
+        let Self { traits, tree, profile } = self;
+        let morphology = morphology::build(traits, tree, *profile);
+        let controller = controller::build(traits, tree, &morphology, *profile);
+        Creature { morphology, controller }
+    }
 }
 
 /// Why a genome cannot be expressed.
@@ -64,43 +82,46 @@ pub enum ExpressionError {
     },
 }
 
-/// Expresses a genome. A body of more than `links_max` links is cut to the first ones of the expansion's
-/// depth-first order; profile `coursework` never cuts, but refuses what is over [`profile::COURSEWORK_LINKS_MAX`].
+/// Expresses a genome: develops it and builds what that leads to.
 ///
 /// # Errors
-/// If there is no gene, or too many links for a profile that does not cut.
+/// As [`develop`].
 pub fn express(
     genome: &[Gene],
-    profile: Profile,
+    reading: impl Into<Reading>,
     links_max: usize,
 ) -> Result<Creature, ExpressionError> {
-    let (traits, tree) = develop(genome, profile, links_max)?;
-    let morphology = morphology::build(&traits, &tree, profile);
-    let controller = controller::build(&traits, &tree, &morphology, profile);
-    Ok(Creature { traits, tree, morphology, controller })
+    Ok(develop(genome, reading, links_max)?.creature())
 }
 
 /// How many links the body has that [`express`] makes of a genome, found without building it.
 ///
 /// # Errors
-/// As [`express`].
+/// As [`develop`].
 pub fn count_links(
     genome: &[Gene],
-    profile: Profile,
+    reading: impl Into<Reading>,
     links_max: usize,
 ) -> Result<usize, ExpressionError> {
-    develop(genome, profile, links_max).map(|(_, tree)| tree.len())
+    develop(genome, reading, links_max).map(|development| development.tree.len())
 }
 
-fn develop(
+/// Develops a genome. A body of more than `links_max` links is cut to the first ones of the expansion's
+/// depth-first order; profile `coursework` never cuts, but refuses what is over [`profile::COURSEWORK_LINKS_MAX`].
+///
+/// # Errors
+/// If there is no gene, or too many links for a profile that does not cut.
+pub fn develop(
     genome: &[Gene],
-    profile: Profile,
+    reading: impl Into<Reading>,
     links_max: usize,
-) -> Result<(Vec<Traits>, Vec<Copy>), ExpressionError> {
+) -> Result<Development, ExpressionError> {
     if genome.is_empty() {
         return Err(ExpressionError::Empty);
     }
-    let traits: Vec<Traits> = genome.iter().map(|gene| profile.decode(gene)).collect();
+    let reading = reading.into();
+    let profile = reading.profile;
+    let traits: Vec<Traits> = genome.iter().map(|gene| reading.decode(gene)).collect();
     let parents = genome::parents(&traits);
     let copies: Vec<u32> = traits.iter().map(|t| t.copies).collect();
     let tree = if profile.is_cut() {
@@ -113,5 +134,5 @@ fn develop(
         }
         tree
     };
-    Ok((traits, tree))
+    Ok(Development { traits, tree, profile })
 }

@@ -4,7 +4,7 @@ use super::expansion::Copy;
 use super::profile::Profile;
 pub use super::shape::Shape;
 use super::traits::{SolidKind, Traits};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, vector};
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3, vector};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A body, its root first and every parent before its children.
@@ -21,10 +21,21 @@ pub struct Morphology {
 pub struct Link {
     /// Its solid, centred on its frame.
     pub shape: Shape,
-    /// Mass in kilograms, spread evenly over the solid.
+    /// Mass in kilograms.
     pub mass_kg: f64,
+    /// How its mass is spread; none if evenly over the solid, as in every body that was grown from genes.
+    pub inertia: Option<Inertia>,
     /// What holds it to its parent; none for the root.
     pub joint: Option<Joint>,
+}
+
+/// A mass that is spread otherwise than evenly over a solid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Inertia {
+    /// The centre of mass in the link's frame, in metres.
+    pub centre_m: Vector3<f64>,
+    /// Moments of inertia about that centre, along the link's axes, in kg·m².
+    pub about_centre_kg_m2: Matrix3<f64>,
 }
 
 /// A joint between a link and its parent.
@@ -47,6 +58,21 @@ pub enum JointKind {
     Fixed,
     /// It turns without limit about this unit vector of the joint's frame.
     Revolute(Vector3<f64>),
+}
+
+impl Link {
+    /// The centre of mass in the link's frame, in metres.
+    pub fn centre_m(&self) -> Vector3<f64> {
+        self.inertia.map_or_else(Vector3::zeros, |inertia| inertia.centre_m)
+    }
+
+    /// Moments of inertia about the centre of mass, along the link's axes, in kg·m².
+    pub fn inertia_kg_m2(&self) -> Matrix3<f64> {
+        match &self.inertia {
+            None => Matrix3::from_diagonal(&self.shape.inertia_kg_m2(self.mass_kg)),
+            Some(inertia) => inertia.about_centre_kg_m2,
+        }
+    }
 }
 
 impl Morphology {
@@ -102,7 +128,8 @@ pub fn build(traits: &[Traits], tree: &[Copy], profile: Profile) -> Morphology {
                 JointKind::Fixed
             },
         });
-        links.push(Link { shape, mass_kg: shape.volume_m3() * traits.density_kg_m3, joint });
+        let mass_kg = shape.volume_m3() * traits.density_kg_m3;
+        links.push(Link { shape, mass_kg, inertia: None, joint });
     }
     let root_rotation = match profile {
         // Lying, so that copies about the root's long axis stand on both sides of a trunk.

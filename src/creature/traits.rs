@@ -1,7 +1,8 @@
 //! A gene decoded: numbers with names and units.
 
-use super::gene::{Gene, PARAMETERS};
+use super::gene::Gene;
 use super::profile::Profile;
+use super::scales::Reading;
 use super::waveform::Waveform;
 use nalgebra::{Vector3, vector};
 use std::f64::consts::PI;
@@ -54,28 +55,42 @@ impl Traits {
     }
 }
 
-impl Profile {
-    /// Decodes a gene by the gene table.
-    pub fn decode(self, gene: &Gene) -> Traits {
-        let value = |i| gene.value(i, self);
+impl Reading {
+    /// Decodes a gene.
+    pub fn decode(&self, gene: &Gene) -> Traits {
+        let value = |i| gene.value(i, *self);
+        let profile = self.profile;
         Traits {
-            solid: self.solid(value(0)),
+            solid: profile.solid(value(0)),
             length_m: value(1),
             radius_m: value(2),
             copies: self.copies(value(3)),
             density_kg_m3: value(4),
-            is_revolute: self == Profile::Coursework || value(5) < 0.5,
+            is_revolute: profile == Profile::Coursework || value(5) < 0.5,
             parent_share: value(6),
             axis: axis(value(7)),
             rpy_rad: [value(8), value(9), value(10)],
             origin: vector![value(11), value(12), value(13)],
-            waveform: self.waveform(value(14)),
-            amplitude_rad_s: if self == Profile::Coursework { 1.0 } else { value(15) },
-            phase_step_rad: match self {
-                Profile::Native => 2.0 * PI * value(16) * self.control_period_s(),
+            waveform: profile.waveform(value(14)),
+            amplitude_rad_s: if profile == Profile::Coursework { 1.0 } else { value(15) },
+            phase_step_rad: match profile {
+                Profile::Native => 2.0 * PI * value(16) * profile.control_period_s(),
                 Profile::Lecture | Profile::Coursework => value(16),
             },
         }
+    }
+
+    fn copies(&self, value: f64) -> u32 {
+        // Rounding may reach the excluded end of the range: it means one copy less.
+        let most = self.used(3).to.ceil() as u32 - 1;
+        (value as u32).clamp(1, most.max(1))
+    }
+}
+
+impl Profile {
+    /// Decodes a gene by the gene table.
+    pub fn decode(self, gene: &Gene) -> Traits {
+        Reading::from(self).decode(gene)
     }
 
     fn solid(self, value: f64) -> SolidKind {
@@ -84,12 +99,6 @@ impl Profile {
         } else {
             SolidKind::Cuboid
         }
-    }
-
-    fn copies(self, value: f64) -> u32 {
-        // Rounding may reach the excluded end of the range: it means one copy less.
-        let most = PARAMETERS[3].used(self).to as u32 - 1;
-        (value as u32).clamp(1, most)
     }
 
     fn waveform(self, value: f64) -> Waveform {
@@ -116,7 +125,7 @@ fn axis(value: f64) -> Vector3<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
+    use crate::creature::gene::{PARAMETER_COUNT, PARAMETERS, VALUE_MAX};
 
     #[test]
     fn the_ends_of_every_range_decode_to_something_within_it() {

@@ -1,5 +1,6 @@
 //! The waves that drive motors.
 
+use crate::choice;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -16,6 +17,9 @@ pub enum Waveform {
 }
 
 impl Waveform {
+    /// Every waveform.
+    pub const ALL: [Waveform; 3] = [Waveform::Sine, Waveform::Pulse, Waveform::Ramp];
+
     /// The wave's value at a phase from 0 (included) to 2π (excluded).
     pub fn at(self, phase_rad: f64) -> f64 {
         match self {
@@ -24,6 +28,24 @@ impl Waveform {
             Waveform::Pulse => -1.0,
             Waveform::Ramp => phase_rad / PI - 1.0,
         }
+    }
+}
+
+impl std::fmt::Display for Waveform {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Waveform::Sine => "sine",
+            Waveform::Pulse => "pulse",
+            Waveform::Ramp => "ramp",
+        })
+    }
+}
+
+impl std::str::FromStr for Waveform {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("waveform", &Waveform::ALL, text)
     }
 }
 

@@ -80,7 +80,7 @@ impl Effort {
     }
 }
 
-/// The random genomes of generation 0.
+/// The genomes of generation 0: random ones, but for founders.
 pub fn genesis<P: Problem>(
     problem: &P,
     strategy: &Strategy,
@@ -89,9 +89,13 @@ pub fn genesis<P: Problem>(
     let moment = Moment { source, generation: 0 };
     (0..strategy.population)
         .map(|index| {
-            let mut rng = source.stream(0, index as u32, Purpose::Genesis);
-            let mut genome = problem.random_genome(&mut rng);
-            genome.truncate(strategy.variation.genes_max);
+            let founder = problem.founder(source.island, index, strategy.population);
+            let genome = founder.unwrap_or_else(|| {
+                let mut rng = source.stream(0, index as u32, Purpose::Genesis);
+                let mut genome = problem.random_genome(&mut rng);
+                genome.truncate(strategy.variation.genes_max);
+                genome
+            });
             Offspring { id: moment.id(index), parents: [None; 2], genome }
         })
         .collect()

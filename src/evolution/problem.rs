@@ -31,6 +31,12 @@ pub trait Problem: Sync {
     /// Draws the genome of an individual of generation 0.
     fn random_genome(&self, rng: &mut Stream) -> Vec<Self::Gene>;
 
+    /// The genome that individual `index` of generation 0 of an island with so many individuals has to have; none if a
+    /// random one. It is no longer than genomes may be.
+    fn founder(&self, _island: u32, _index: usize, _population: usize) -> Option<Vec<Self::Gene>> {
+        None
+    }
+
     /// Changes a gene by a point mutation: each value with probability `rate`, by at most `amount`.
     fn mutate_gene(&self, gene: &mut Self::Gene, rate: f64, amount: f64, rng: &mut Stream);
 

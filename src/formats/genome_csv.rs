@@ -32,7 +32,7 @@ pub struct ReadGenome {
 pub struct Clamped {
     /// Its line, from 1.
     pub line: usize,
-    /// Its column, from 1.
+    /// Its column, from 1, not counting those that were left out.
     pub column: usize,
     /// What the file says.
     pub value: f64,
@@ -101,6 +101,15 @@ pub enum GenomeCsvError {
 /// # Errors
 /// If the input cannot be read, is no such CSV, or is too large.
 pub fn read(input: impl Read) -> Result<ReadGenome, GenomeCsvError> {
+    read_without(input, &[])
+}
+
+/// Reads a genome from a file in which lines may have more columns than a gene has numbers: of a line with exactly
+/// so many more as are to be left out, the columns `dropped`, counted from 1, are.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_without(input: impl Read, dropped: &[usize]) -> Result<ReadGenome, GenomeCsvError> {
     let mut input = BufReader::new(input);
     let mut bytes = Vec::new();
     let mut read = ReadGenome::default();
@@ -111,7 +120,7 @@ pub fn read(input: impl Read) -> Result<ReadGenome, GenomeCsvError> {
         let text = str::from_utf8(&bytes).map_err(|_| GenomeCsvError::NotText { line })?;
         let text = text.trim_start_matches('\u{feff}').trim();
         if !text.is_empty() {
-            read.genome.push(parse(text, line, &mut read.clamped)?);
+            read.genome.push(parse(text, line, dropped, &mut read.clamped)?);
         }
     }
     if read.genome.is_empty() { Err(GenomeCsvError::Empty) } else { Ok(read) }
@@ -128,6 +137,29 @@ pub fn write(genome: &[Gene], mut output: impl Write) -> io::Result<()> {
         output.write_all(line.as_bytes())?;
     }
     Ok(())
+}
+
+/// Writes several genomes into one file, with an empty line after each.
+///
+/// # Errors
+/// If the output cannot be written.
+pub fn write_all<'a>(
+    genomes: impl IntoIterator<Item = &'a Vec<Gene>>,
+    mut output: impl Write,
+) -> io::Result<()> {
+    genomes.into_iter().try_for_each(|genome| {
+        write(genome, &mut output)?;
+        output.write_all(b"\n")
+    })
+}
+
+/// Reads what [`write_all`] wrote.
+///
+/// # Errors
+/// If one of the genomes is none; lines are counted within it.
+pub fn read_all(text: &str) -> Result<Vec<Vec<Gene>>, GenomeCsvError> {
+    let genomes = text.split("\n\n").filter(|genome| !genome.trim().is_empty());
+    genomes.map(|genome| Ok(read(genome.as_bytes())?.genome)).collect()
 }
 
 /// Replaces `bytes` by the next line; false at the end of the input.
@@ -147,14 +179,22 @@ fn next_line(
     Ok(!bytes.is_empty())
 }
 
-fn parse(text: &str, line: usize, clamped: &mut Vec<Clamped>) -> Result<Gene, GenomeCsvError> {
+fn parse(
+    text: &str,
+    line: usize,
+    dropped: &[usize],
+    clamped: &mut Vec<Clamped>,
+) -> Result<Gene, GenomeCsvError> {
     let text = text.strip_suffix(',').unwrap_or(text);
     let columns = text.split(',').count();
-    if columns != PARAMETER_COUNT {
-        return Err(GenomeCsvError::Columns { line, columns });
-    }
+    let dropped = match columns {
+        PARAMETER_COUNT => &[],
+        _ if columns == PARAMETER_COUNT + dropped.len() => dropped,
+        _ => return Err(GenomeCsvError::Columns { line, columns }),
+    };
+    let cells = text.split(',').zip(1..).filter(|(_, column)| !dropped.contains(column));
     let mut gene = Gene([0.0; PARAMETER_COUNT]);
-    for ((cell, value), column) in text.split(',').zip(&mut gene.0).zip(1..) {
+    for (((cell, _), value), column) in cells.zip(&mut gene.0).zip(1..) {
         *value = number(cell.trim()).ok_or_else(|| GenomeCsvError::Value {
             line,
             column,
@@ -179,8 +219,10 @@ fn number(cell: &str) -> Option<f64> {
 /// What to do about a line with a wrong number of columns; 18 and 19 are known from changed course programs.
 fn advice(columns: usize) -> &'static str {
     match columns {
-        18 => "remove the additional one (link-geometry, usually column 6)",
-        19 => "remove the additional ones (sensor gain and bias, usually columns 18 and 19)",
+        18 => "leave out the additional one, link-geometry, usually with --drop-column 6",
+        19 => {
+            "leave out the additional ones, sensor gain and bias, usually with --drop-column 18 --drop-column 19"
+        }
         _ => "write a gene a line, its numbers separated by commas",
     }
 }

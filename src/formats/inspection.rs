@@ -4,7 +4,9 @@
 //! included: from 12 genes on they can collide, so tell links apart by their place. The other profiles add keys
 //! and take none away.
 
-use crate::creature::{Copy, Creature, Joint, JointKind, Motor, Profile, Traits, Waveform};
+use crate::creature::{
+    Copy, Creature, Development, Joint, JointKind, Motor, Profile, Traits, Waveform,
+};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -117,8 +119,9 @@ pub struct MoreOfMotor {
 }
 
 impl Inspection {
-    /// Inspects a creature that was expressed in `profile`.
-    pub fn new(creature: &Creature, profile: Profile, source: impl Into<String>) -> Self {
+    /// Inspects a genome as it developed in `profile`.
+    pub fn new(development: &Development, profile: Profile, source: impl Into<String>) -> Self {
+        let creature = development.creature();
         let root_rotation = &creature.morphology.root_rotation;
         Self {
             source: source.into(),
@@ -127,7 +130,9 @@ impl Inspection {
                 control_period_s: creature.controller.period_s,
                 root_rpy: super::rotation::roll_pitch_yaw_rad(root_rotation),
             }),
-            links: (0..creature.tree.len()).map(|index| link(creature, profile, index)).collect(),
+            links: (0..development.tree.len())
+                .map(|index| link(development, &creature, profile, index))
+                .collect(),
         }
     }
 
@@ -145,14 +150,19 @@ fn in_full(profile: Profile) -> bool {
     profile != Profile::Coursework
 }
 
-fn link(creature: &Creature, profile: Profile, index: usize) -> LinkInspection {
-    let copy = &creature.tree[index];
-    let traits = &creature.traits[copy.gene];
+fn link(
+    development: &Development,
+    creature: &Creature,
+    profile: Profile,
+    index: usize,
+) -> LinkInspection {
+    let copy = &development.tree[index];
+    let traits = &development.traits[copy.gene];
     let link = &creature.morphology.links[index];
     let motor = creature.controller.motors[index].as_ref();
     LinkInspection {
         name: copy.name(index),
-        parent: copy.parent.map(|parent| creature.tree[parent].name(parent)),
+        parent: copy.parent.map(|parent| development.tree[parent].name(parent)),
         sibling_index: copy.sibling,
         length: traits.length_m,
         radius: traits.radius_m,
@@ -204,6 +214,7 @@ fn motor(motor: &Motor, period_s: f64, profile: Profile) -> MotorInspection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::creature::develop;
     use crate::evolution::Problem;
     use crate::problems::Locomotion;
     use crate::rng::{Purpose, Source};
@@ -212,8 +223,9 @@ mod tests {
     fn inspected(profile: Profile, index: u32) -> Value {
         let problem = Locomotion { profile, ..Locomotion::default() };
         let mut rng = Source { seed: 3, island: 0 }.stream(0, index, Purpose::Genesis);
-        let creature = problem.express(&problem.random_genome(&mut rng)).unwrap();
-        serde_json::to_value(Inspection::new(&creature, profile, "random")).unwrap()
+        let genome = problem.random_genome(&mut rng);
+        let development = develop(&genome, profile, problem.links_max).unwrap();
+        serde_json::to_value(Inspection::new(&development, profile, "random")).unwrap()
     }
 
     fn keys(value: &Value) -> Vec<&str> {

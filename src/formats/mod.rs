@@ -1,18 +1,26 @@
 //! Files for people and other programs.
 //!
-//! - [`genome_csv`] reads and writes genomes, in the course's format.
-//! - [`inspection`] says in JSON what a genome became, link by link.
+//! - [`genome_csv`] reads and writes genomes, in the course's format; [`course`] says ours in the course's terms.
+//! - [`inspection`] says in JSON what a genome became, link by link; [`body_inspection`] what a body that was read is.
 //! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
-//! - [`urdf`] writes a body for other simulators.
+//! - [`urdf`] reads and writes bodies for other simulators; [`mjcf`] writes them for MuJoCo, [`stl`] for printers.
+//! - [`motion`] is how a body moved.
 //!
 //! Architecture invariant: nothing here opens a file or changes what it is given; each format reads from any
 //! reader or writes to any writer.
 
+pub mod body_inspection;
+pub mod course;
 pub mod genome_csv;
 pub mod inspection;
 pub mod metrics;
+pub mod mjcf;
+pub mod motion;
 mod rotation;
+pub mod stl;
 pub mod urdf;
+mod xml;
 
+pub use body_inspection::BodyInspection;
 pub use genome_csv::{GenomeCsvError, ReadGenome};
 pub use inspection::Inspection;

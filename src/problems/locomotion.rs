@@ -3,7 +3,7 @@
 use super::progress;
 use crate::choice;
 use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use crate::creature::{self, Creature, ExpressionError, Gene, Profile};
+use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales};
 use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
 use crate::rng::Stream;
 use crate::simulation::{self, Engine, Measurement, Start, Trajectory, Trial};
@@ -83,10 +83,12 @@ impl std::str::FromStr for Task {
 }
 
 /// The problem of locomotion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Locomotion {
     /// How genes are read.
     pub profile: Profile,
+    /// Scales of profile `coursework` that were changed.
+    pub scales: Scales,
     /// What the bodies have to do.
     pub task: Task,
     /// Genes of a random genome, at least 1.
@@ -107,11 +109,17 @@ impl Locomotion {
     /// What a run solves if nothing else is said.
     pub const DEFAULT: Self = Self {
         profile: Profile::Native,
+        scales: Scales::NONE,
         task: Task::Walk,
         genes: 4,
         links_max: 32,
         engine: Engine::Rapier,
     };
+
+    /// How genes are read.
+    pub fn reading(&self) -> Reading {
+        Reading { profile: self.profile, scales: self.scales }
+    }
 
     /// The same problem under the engine of record, if this is another one.
     pub fn judge(&self) -> Option<Self> {
@@ -123,7 +131,7 @@ impl Locomotion {
     /// # Errors
     /// If it is empty or describes more than the profile builds.
     pub fn express(&self, genome: &[Gene]) -> Result<Creature, ExpressionError> {
-        creature::express(genome, self.profile, self.links_max)
+        creature::express(genome, self.reading(), self.links_max)
     }
 
     /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives.
@@ -131,9 +139,13 @@ impl Locomotion {
     /// # Errors
     /// If the genome cannot be expressed.
     pub fn film(&self, genome: &[Gene]) -> Result<(Evaluation, Trajectory), ExpressionError> {
-        let creature = self.express(genome)?;
-        let (result, trajectory) = simulation::film(&creature, &self.task.trial(), self.engine);
-        Ok((self.evaluation(result), trajectory))
+        Ok(self.film_body(&self.express(genome)?))
+    }
+
+    /// Evaluates a body and films it.
+    pub fn film_body(&self, creature: &Creature) -> (Evaluation, Trajectory) {
+        let (result, trajectory) = simulation::film(creature, &self.task.trial(), self.engine);
+        (self.evaluation(result), trajectory)
     }
 
     fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
@@ -207,7 +219,7 @@ impl Problem for Locomotion {
     /// Links times steps, of a trial that runs to its end; what cannot be expressed costs nothing.
     fn cost(&self, genome: &[Gene]) -> u64 {
         // Whatever evaluating a genome contains must not come out here.
-        let links = catch_unwind(|| creature::count_links(genome, self.profile, self.links_max));
+        let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
         links as u64 * u64::from(self.task.trial().steps())
     }

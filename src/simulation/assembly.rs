@@ -3,8 +3,9 @@
 //! Links that fixed joints hold together are one part: there is nothing to solve between them.
 
 use super::trial::{LEAN_RAD, Start, Trial};
-use crate::creature::{Creature, Joint, JointKind, Link, Shape};
-use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
+use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Shape};
+use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
+use std::f64::consts::PI;
 
 /// A body put together, at the place where its trial begins.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +38,10 @@ pub struct Part {
 pub struct Solid {
     /// Its form.
     pub shape: Shape,
-    /// Its mass in kilograms, spread evenly.
+    /// Its mass in kilograms.
     pub mass_kg: f64,
+    /// How its mass is spread, in its own frame; none if evenly.
+    pub inertia: Option<Inertia>,
     /// Its frame in the part's.
     pub part_from_solid: Isometry3<f64>,
 }
@@ -114,6 +117,7 @@ impl Assembly {
         self.parts[place.part].solids.push(Solid {
             shape: link.shape,
             mass_kg: link.mass_kg,
+            inertia: link.inertia,
             part_from_solid: place.part_from_link,
         });
     }
@@ -121,8 +125,9 @@ impl Assembly {
     fn hinge(&self, joint: &Joint, torque_nm_max: f64) -> Hinge {
         let Joint { parent, parent_from_joint, joint_from_link, kind } = joint;
         let JointKind::Revolute(axis) = kind else { unreachable!("fixed links are merged") };
+        // Of the half turns that lead to -x one is as good as another.
         let to_axis = UnitQuaternion::rotation_between(&Vector3::x(), axis)
-            .expect("a hinge's axis is a positive unit axis, never -x");
+            .unwrap_or_else(|| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), PI));
         let Place { part, part_from_link } = self.places[*parent];
         Hinge {
             parent: part,
@@ -174,17 +179,28 @@ impl Part {
     /// Adds up what the solids weigh, by the parallel-axis theorem.
     fn weigh(&mut self) {
         self.mass_kg = self.solids.iter().map(|solid| solid.mass_kg).sum();
-        let moment = |solid: &Solid| solid.mass_kg * solid.part_from_solid.translation.vector;
+        let moment = |solid: &Solid| solid.mass_kg * solid.centre_m();
         self.centre_m = self.solids.iter().map(moment).sum::<Vector3<f64>>() / self.mass_kg;
         self.inertia_kg_m2 = self.solids.iter().map(|s| s.inertia_about(&self.centre_m)).sum();
     }
 }
 
 impl Solid {
+    /// Its centre of mass in the part's frame, in metres.
+    fn centre_m(&self) -> Vector3<f64> {
+        match &self.inertia {
+            None => self.part_from_solid.translation.vector,
+            Some(inertia) => (self.part_from_solid * Point3::from(inertia.centre_m)).coords,
+        }
+    }
+
     fn inertia_about(&self, point_m: &Vector3<f64>) -> Matrix3<f64> {
         let axes = self.part_from_solid.rotation.to_rotation_matrix();
-        let own = Matrix3::from_diagonal(&self.shape.inertia_kg_m2(self.mass_kg));
-        let arm = self.part_from_solid.translation.vector - point_m;
+        let own = match &self.inertia {
+            None => Matrix3::from_diagonal(&self.shape.inertia_kg_m2(self.mass_kg)),
+            Some(inertia) => inertia.about_centre_kg_m2,
+        };
+        let arm = self.centre_m() - point_m;
         let offset = Matrix3::identity() * arm.norm_squared() - arm * arm.transpose();
         axes * own * axes.transpose() + self.mass_kg * offset
     }

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// ```text
 /// run.toml                                the complete configuration
+/// seed-genomes.csv                        the genomes that it began with, if they are not all random
 /// run.log                                 what happened: starts, deaths, restarts, warnings
 /// metrics.csv                             a row an island and generation
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
@@ -49,8 +50,9 @@ impl RunDir {
         private().create(&self.0).map_err(StoreError::io("make the folder", &self.0))?;
         let folder = self.lock()?;
         let mut entries = std::fs::read_dir(&self.0).map_err(StoreError::io("read", &self.0))?;
-        let partial = self.partial();
-        if entries.any(|entry| !entry.is_ok_and(|entry| entry.path() == partial)) {
+        let (partial, seeds) = (self.partial(), self.seed_genomes());
+        let is_known = |path: PathBuf| path == partial || (path == seeds && partial.exists());
+        if entries.any(|entry| !entry.is_ok_and(|entry| is_known(entry.path()))) {
             let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
         }
@@ -107,6 +109,11 @@ impl RunDir {
     /// The configuration.
     pub fn config(&self) -> PathBuf {
         self.0.join("run.toml")
+    }
+
+    /// The genomes that the run began with, if they were not all random.
+    pub fn seed_genomes(&self) -> PathBuf {
+        self.0.join("seed-genomes.csv")
     }
 
     /// What happened.

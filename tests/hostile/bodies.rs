@@ -7,7 +7,10 @@ use islands::app::config::Config;
 use islands::archipelago::{Champion, Outbox, island};
 use islands::creature::{Gene, Profile, express};
 use islands::evolution::{self, Individual};
-use islands::formats::{genome_csv, metrics};
+use islands::formats::{genome_csv, metrics, urdf};
+use islands::problems::Task;
+use islands::simulation::Trial;
+use islands::simulation::assembly::Assembly;
 use islands::store::{Entry, Logbook, RecordLog, RunDir, Tail, checkpoint};
 use islands::transport::Limits;
 use serde::{Serialize, de::DeserializeOwned};
@@ -84,8 +87,29 @@ pub fn genome_csv(data: &[u8]) {
     assert_eq!(again.clamped, []);
     for profile in Profile::ALL {
         let creature = express(&read.genome, profile, 16);
-        assert!(creature.is_ok_and(|it| it.tree.len() <= 16) || !profile.is_cut());
+        assert!(creature.is_ok_and(|it| it.morphology.links.len() <= 16) || !profile.is_cut());
     }
+}
+
+/// A body.
+pub fn urdf(data: &[u8]) {
+    let Ok(text) = str::from_utf8(data) else { return };
+    let creature = match urdf::read(text) {
+        Ok(body) => body.creature,
+        Err(error) => return is_one_sentence(&error.to_string()),
+    };
+    let mut written = Vec::new();
+    urdf::write(&creature.morphology, &creature.controller, "it", &mut written)
+        .expect("memory takes everything");
+    let again = urdf::read(str::from_utf8(&written).expect("it is text"));
+    let links = &creature.morphology.links;
+    // What is as large as a file may say, added up, is more than one may say.
+    if creature.morphology.extent_m() < 1e6 && links.iter().all(|link| link.mass_kg < 1e6) {
+        assert_eq!(again.expect("we wrote it").creature.morphology.links.len(), links.len());
+    }
+    let trial = Trial { scored_s: 0.0, settle_s: 0.0, ..Task::Course.trial() };
+    let assembly = Assembly::new(&creature, &trial);
+    assert!(assembly.parts.iter().all(|part| part.mass_kg > 0.0));
 }
 
 fn bits(genome: &[Gene]) -> Vec<u64> {

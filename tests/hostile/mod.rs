@@ -74,6 +74,11 @@ fn any_genome_file_is_refused_in_a_sentence_or_valid() {
 }
 
 #[test]
+fn any_urdf_is_refused_in_a_sentence_or_a_body_that_can_be_written_and_simulated() {
+    attack("urdf", bodies::urdf, &seeds::urdfs(), 4_000);
+}
+
+#[test]
 fn any_configuration_is_refused_in_a_sentence_or_can_be_run_and_written() {
     attack("config", bodies::config, &seeds::configs(), 4_000);
 }

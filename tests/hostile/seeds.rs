@@ -5,8 +5,9 @@ use super::wire;
 use crate::course::fixture;
 use islands::app::config::Config;
 use islands::archipelago::{Step, lockstep};
-use islands::creature::Gene;
+use islands::creature::{Creature, Gene, Profile, express};
 use islands::formats::metrics::{self, Row};
+use islands::formats::{genome_csv, urdf};
 use islands::store::{Checkpoint, Entry, encode};
 use islands::transport::Limits;
 use rand::RngExt;
@@ -72,6 +73,20 @@ pub fn genomes() -> Vec<Vec<u8>> {
     let odd =
         "\u{feff}1.0,0,1e-300,.5,+0.25,-0,5e-324,1e300,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8,0.9\r\n\r\n";
     vec![fixture("genome_0.csv").into_bytes(), fixture("genome_3.csv").into_bytes(), odd.into()]
+}
+
+pub fn urdfs() -> Vec<Vec<u8>> {
+    let genome = genome_csv::read(fixture("genome_1.csv").as_bytes()).unwrap().genome;
+    let Creature { morphology, controller } = express(&genome, Profile::Lecture, 4).unwrap();
+    let mut ours = Vec::new();
+    urdf::write(&morphology, &controller, "ours", &mut ours).unwrap();
+    let theirs = include_str!("../fixtures/physics/hand/wheels2.urdf");
+    let odd = r#"<robot name="odd"><link name="world"/><joint name="j" type="fixed"><parent link="world"/>
+        <child link="a"/><origin rpy="1 2 3"/></joint><link name="a"><inertial><mass value="1e9"/>
+        <inertia ixx="1e-9" iyy="1" izz="1"/></inertial><visual><geometry><capsule radius="1e-9"
+        length="1e9"/></geometry></visual><visual><origin xyz="1 0 0"/><geometry><sphere radius="1"/>
+        </geometry></visual></link></robot>"#;
+    vec![ours, theirs.into(), odd.into()]
 }
 
 pub fn configs() -> Vec<Vec<u8>> {

@@ -55,7 +55,7 @@ impl Part {
             _ => Shape::Cuboid { half_extents_m: Vector3::new(radius, radius, length / 2.0) },
         };
         let joint = usize::try_from(self.parent).ok().map(|parent| self.joint(parent));
-        Link { shape, mass_kg: self.mass, joint }
+        Link { shape, mass_kg: self.mass, inertia: None, joint }
     }
 
     /// The joint is at the part's centre, as all are in the course.
@@ -87,8 +87,6 @@ impl Part {
 impl Body {
     fn creature(&self) -> Creature {
         Creature {
-            traits: Vec::new(),
-            tree: Vec::new(),
             morphology: Morphology {
                 links: self.links.iter().map(Part::link).collect(),
                 root_rotation: UnitQuaternion::identity(),

@@ -8,6 +8,7 @@ use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
+use super::seeds;
 use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
 use crate::creature::Gene;
 use crate::evolution::Problem;
@@ -38,7 +39,7 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     for warning in warnings {
         say(&format!("warning: {warning}"));
     }
-    let problem = config.problem();
+    let problem = seeds::founded(&dir, &config)?;
     let saved = island.as_ref().map(|island| island.generation);
     let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
     let mut ship = Ship {

@@ -19,6 +19,7 @@ use super::config::{self, Config};
 use super::console::print;
 use super::kinship::Ear;
 use super::result::{self, Summary};
+use super::seeds;
 use crate::creature::Gene;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
@@ -34,7 +35,7 @@ use supervisor::Supervisor;
 /// failed; with 130 if it was interrupted.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     keep_private();
-    let config = resolve(args)?;
+    let (config, founders) = resolve(args)?;
     let ear = Ear::to_signals()?;
     let dir = run_dir(args.out.as_deref(), &config);
     require_text(&dir)?;
@@ -47,6 +48,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
         };
         Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
     })?;
+    seeds::keep(&dir, &founders)?;
     write_config(&dir, &config)?;
     claim.make_folders(config.islands)?;
     Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
@@ -69,6 +71,7 @@ pub fn resume(args: &ResumeArgs) -> Result<(), Failure> {
         present(&summary, &args.output);
         return Ok(());
     }
+    seeds::founded(&dir, &config)?;
     config.launch = Some(new_launch()?);
     let domain = config.domain()?;
     let harbour = Harbour::create(&domain, &config.archipelago())?;
@@ -125,19 +128,24 @@ fn keep_private() {
     rustix::process::umask(Mode::RWXG | Mode::RWXO);
 }
 
-/// The complete configuration: flags over a file over defaults, with a seed.
-fn resolve(args: &RunArgs) -> Result<Config, Failure> {
+/// The complete configuration: flags over a file over defaults, with a seed; and the genomes to begin with.
+fn resolve(args: &RunArgs) -> Result<(Config, Vec<Vec<Gene>>), Failure> {
     let mut config = match &args.config {
         Some(path) => args.settings.over(Config::read(path)?),
         None => args.settings.over(Config::default()),
     };
+    if !args.changes.scales.is_empty() {
+        config.scales = args.changes.scales.iter().cloned().collect();
+    }
     config.check()?;
+    let dropped = &args.changes.drop_columns;
+    let founders = seeds::find(&mut config, &args.seed_genomes, dropped, args.config.as_deref())?;
     if config.seed.is_none() {
         // Half of it is entropy enough, and a number that people can copy.
         config.seed = Some(entropy()? >> 32);
     }
     config.launch = Some(new_launch()?);
-    Ok(config)
+    Ok((config, founders))
 }
 
 fn new_launch() -> Result<config::Launch, Failure> {

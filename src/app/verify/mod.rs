@@ -14,9 +14,10 @@ mod rules;
 use super::cli::VerifyArgs;
 use super::config::{Config, FILE_BYTES_MAX};
 use super::console::print;
+use super::seeds::{self, SeedGenomes};
 use super::{Failure, table};
 use crate::store::{RunDir, StoreError, file};
-use check::Check;
+use check::{Check, counted};
 use records::Records;
 use retrial::{Mismatch, Retrial};
 use rules::Terms;
@@ -106,6 +107,9 @@ fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
     let (records, mut checks) = Records::read(dir, &terms);
     let sound = checks.iter().all(Check::is_fine);
     checks.insert(0, check_version(&terms));
+    if let Some(said) = &config.seed_genomes {
+        checks.insert(1, check_seeds(dir, said));
+    }
     let mut digest = None;
     if terms.finished {
         let (found, claims) = claims::check(dir, &terms, &records, &summary, sound);
@@ -129,6 +133,15 @@ fn check_version(terms: &Terms) -> Check {
     let mut check = Check::of("run.toml").checked(format!("version {shown}"));
     if !terms.is_of_this_version() {
         check.note(concat!("ok, but this is version ", env!("CARGO_PKG_VERSION")));
+    }
+    check
+}
+
+/// Whether the genomes that the run began with are still what its configuration says.
+fn check_seeds(dir: &RunDir, said: &SeedGenomes) -> Check {
+    let mut check = Check::of("seed-genomes.csv").checked(counted(said.count, "genome"));
+    if let Err(failure) = seeds::load(dir, said) {
+        check.damaged(failure.message);
     }
     check
 }

@@ -23,12 +23,12 @@ const PUSH_M_S_MAX: f64 = 1.0;
 pub type Root = [f32; 8];
 
 /// What the impulses of a step have changed, in whitened velocities.
-#[derive(Debug, Clone, Default)]
-pub struct Change {
+#[derive(Debug)]
+pub struct Change<'a> {
     /// At the root.
     pub root: Root,
     /// At each link's hinge.
-    pub hinges: Vec<f32>,
+    pub hinges: &'a mut [f32],
 }
 
 /// The entry of a row, or of several that go the same way, at a loose hinge.
@@ -116,7 +116,7 @@ impl MotorRow {
     }
 
     /// Corrects the impulse, and returns the square of the speed that was wrong.
-    #[inline]
+    #[inline(always)]
     pub fn improve(&mut self, change: &mut Change, entries: &[Entry<1>]) -> f32 {
         let mut excess_rad_s = self.free_rad_s + dot(&self.root, &change.root);
         for entry in &entries[self.chain.clone()] {
@@ -132,7 +132,7 @@ impl MotorRow {
     }
 
     /// Applies an impulse.
-    #[inline]
+    #[inline(always)]
     pub fn push(&self, impulse: f32, change: &mut Change, entries: &[Entry<1>]) {
         for (velocity, y) in change.root.iter_mut().zip(self.root) {
             *velocity += y * impulse;
@@ -203,7 +203,7 @@ impl Contact {
     }
 
     /// Corrects the impulse, and returns the square of about the velocity that was wrong.
-    #[inline]
+    #[inline(always)]
     pub fn improve(&mut self, change: &mut Change, entries: &[Entry<4>]) -> f32 {
         let velocity_m_s = self.velocity(change, entries);
         let [x, y, z] = self.correct(velocity_m_s);
@@ -212,7 +212,7 @@ impl Contact {
     }
 
     /// Applies an impulse.
-    #[inline]
+    #[inline(always)]
     pub fn push(&self, [x, y, z]: [f32; 3], change: &mut Change, entries: &[Entry<4>]) {
         let [row_x, row_y, row_z] = &self.rows;
         for (i, velocity) in change.root.iter_mut().enumerate() {
@@ -224,7 +224,7 @@ impl Contact {
     }
 
     /// The point's velocity above what it may have, with the impulses so far.
-    #[inline]
+    #[inline(always)]
     fn velocity(&self, change: &Change, entries: &[Entry<4>]) -> [f32; 4] {
         let column = |i: usize| self.columns[i].map(|y| y * change.root[i]);
         let mut velocity = sum(
@@ -240,7 +240,7 @@ impl Contact {
 
     /// Finds a better impulse at a velocity, and returns what is new: the normal impulse first, then friction,
     /// which holds the point if it can and slows it if not.
-    #[inline]
+    #[inline(always)]
     fn correct(&mut self, [mut x, mut y, z, _]: [f32; 4]) -> [f32; 3] {
         let [old_x, old_y, old_z] = self.impulse_ns;
         let normal = (old_z - z * self.inverse_normal).max(0.0);

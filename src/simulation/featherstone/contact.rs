@@ -1,10 +1,10 @@
 //! Points of a body that touch the ground, or will before the step is over.
 //!
 //! A box touches with its corners, a cylinder with four points of each rim: the lowest one, the one across, and the
-//! two between them.
+//! two between them; a sphere with its lowest point, a capsule with those of its ends.
 
 use super::kinematics::Place;
-use super::model::Surface;
+use super::model::{Outline, Surface};
 use super::spatial::Spatial;
 use nalgebra::{Matrix3, Vector3};
 
@@ -48,8 +48,8 @@ pub fn find(surfaces: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
         let place = &stance.places[surface.link];
         let centre_m = place.origin_m + place.rotation * surface.centre_m;
         if stance.can_reach(surface, &centre_m) {
-            let points = surface.points(&centre_m, &place.rotation);
-            for (corner, point_m) in points.iter().enumerate() {
+            let (points, count) = surface.points(&centre_m, &place.rotation);
+            for (corner, point_m) in points.iter().enumerate().take(count) {
                 if let Some(height_m) = stance.touches(surface.link, point_m) {
                     let name = index * POINTS_PER_SOLID + corner;
                     touches.push(Touch { name, link: surface.link, point_m: *point_m, height_m });
@@ -63,13 +63,13 @@ impl Stance<'_> {
     /// Whether any point of a solid may touch.
     fn can_reach(&self, surface: &Surface, centre_m: &Vector3<f64>) -> bool {
         let velocity = &self.velocities[surface.link];
-        let fall_m_s =
-            surface.reach_m * velocity.angular().norm() - velocity.velocity_at(centre_m).z;
+        let turn_m_s = surface.reach_m * velocity.angular().norm();
+        let speed_m_s = velocity.velocity_at(centre_m).z.abs() + turn_m_s;
         let lowest_m = self.height_m + centre_m.z - surface.reach_m;
-        lowest_m - 0.5 * fall_m_s.abs() * self.step_s < MARGIN_M
+        lowest_m - 0.5 * speed_m_s * self.step_s < MARGIN_M
     }
 
-    /// The height of a point if it touches.
+    /// The height of a point when the step begins, half a step before its place, if it touches by the step's end.
     fn touches(&self, link: usize, point_m: &Vector3<f64>) -> Option<f64> {
         let rise_m = self.velocities[link].velocity_at(point_m).z * self.step_s;
         let height_m = self.height_m + point_m.z - 0.5 * rise_m;
@@ -78,27 +78,38 @@ impl Stance<'_> {
 }
 
 impl Surface {
-    /// The points that it can touch with, from the reference.
+    /// The points that it can touch with, from the reference, and how many of them there are.
     fn points(
         &self,
         centre_m: &Vector3<f64>,
         rotation: &Matrix3<f64>,
-    ) -> [Vector3<f64>; POINTS_PER_SOLID] {
+    ) -> ([Vector3<f64>; POINTS_PER_SOLID], usize) {
         let up = rotation * self.axes.column(2);
         let end_m = up * self.half_m.z;
-        let spokes_m = if self.is_round {
-            let down_m = self.downwards(&up, rotation) * self.half_m.x;
-            let across_m = up.cross(&down_m);
-            [down_m, across_m, -down_m, -across_m]
-        } else {
-            let x_m = rotation * self.axes.column(0) * self.half_m.x;
-            let y_m = rotation * self.axes.column(1) * self.half_m.y;
-            [x_m + y_m, y_m - x_m, -x_m - y_m, x_m - y_m]
+        let spokes_m = match self.outline {
+            Outline::Rims => {
+                let down_m = self.downwards(&up, rotation) * self.half_m.x;
+                let across_m = up.cross(&down_m);
+                [down_m, across_m, -down_m, -across_m]
+            }
+            Outline::Corners => {
+                let x_m = rotation * self.axes.column(0) * self.half_m.x;
+                let y_m = rotation * self.axes.column(1) * self.half_m.y;
+                [x_m + y_m, y_m - x_m, -x_m - y_m, x_m - y_m]
+            }
+            Outline::Ends(count) => {
+                let radius_m = self.half_m.x;
+                let lowest_m = centre_m - Vector3::z() * radius_m;
+                let to_end_m = up * (self.half_m.z - radius_m);
+                let side_m = |corner: usize| if corner == 0 { to_end_m } else { -to_end_m };
+                return (std::array::from_fn(|corner| lowest_m + side_m(corner)), count);
+            }
         };
-        std::array::from_fn(|corner| {
+        let points = std::array::from_fn(|corner| {
             let spoke_m = spokes_m[corner % 4];
             centre_m + if corner < 4 { spoke_m + end_m } else { spoke_m - end_m }
-        })
+        });
+        (points, POINTS_PER_SOLID)
     }
 
     /// The unit vector across the axis of a cylinder that points down most; one of the solid's own if the cylinder

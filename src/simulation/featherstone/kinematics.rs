@@ -4,7 +4,7 @@
 //! turned by the Cayley map, which takes no transcendental function and keeps the length of what it turns.
 
 use super::model::{Link, Model};
-use super::spatial::{RigidInertia, Spatial};
+use super::spatial::{RigidInertia, Spatial, applied, product};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 /// The configuration of a body.
@@ -69,7 +69,7 @@ impl Configuration {
         places[0] = Place::of(&model.links[0], rotation, Vector3::zeros());
         for (index, link) in model.links.iter().enumerate().skip(1) {
             let parent = &places[link.parent];
-            let rest = parent.rotation * link.parent_from_rest;
+            let rest = product(&parent.rotation, &link.parent_from_rest);
             let (cos, sin) = self.hinges[index];
             let (y, z) = (rest.column(1), rest.column(2));
             let rotation = Matrix3::from_columns(&[
@@ -77,7 +77,7 @@ impl Configuration {
                 y * cos + z * sin,
                 z * cos - y * sin,
             ]);
-            let origin_m = parent.origin_m + parent.rotation * link.hinge_m;
+            let origin_m = parent.origin_m + applied(&parent.rotation, &link.hinge_m);
             places[index] = Place::of(link, rotation, origin_m);
         }
     }
@@ -118,8 +118,11 @@ impl Place {
             axis: Spatial::new(axis, origin_m.cross(&axis)),
             inertia: RigidInertia {
                 mass_kg: link.mass_kg,
-                centre_m: origin_m + rotation * link.centre_m,
-                about_centre: rotation * link.inertia_kg_m2 * rotation.transpose(),
+                centre_m: origin_m + applied(&rotation, &link.centre_m),
+                about_centre: product(
+                    &product(&rotation, &link.inertia_kg_m2),
+                    &rotation.transpose(),
+                ),
             },
         }
     }

@@ -46,10 +46,21 @@ pub struct Surface {
     pub axes: Matrix3<f64>,
     /// Half its size along its axes, in metres.
     pub half_m: Vector3<f64>,
-    /// Whether it is round about its z axis.
-    pub is_round: bool,
+    /// What it touches with.
+    pub outline: Outline,
     /// No point of it is further from its centre, in metres.
     pub reach_m: f64,
+}
+
+/// What a solid touches the ground with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outline {
+    /// Corners.
+    Corners,
+    /// Rims about its z axis.
+    Rims,
+    /// One half sphere or two, so far round the ends of its z axis as its x axis is long.
+    Ends(usize),
 }
 
 impl Model {
@@ -98,15 +109,19 @@ impl Surface {
     fn new(link: usize, link_from_part: &Isometry3<f64>, solid: &Solid) -> Self {
         let pose = link_from_part * solid.part_from_solid;
         let half_m = solid.shape.half_extents_m();
-        let is_round = matches!(solid.shape, Shape::Cylinder { .. });
-        let radial_m = if is_round { half_m.x } else { half_m.xy().norm() };
+        let outline = match solid.shape {
+            Shape::Cuboid { .. } => Outline::Corners,
+            Shape::Cylinder { .. } => Outline::Rims,
+            Shape::Sphere { .. } => Outline::Ends(1),
+            Shape::Capsule { .. } => Outline::Ends(2),
+        };
         Self {
             link,
             centre_m: pose.translation.vector,
             axes: *pose.rotation.to_rotation_matrix().matrix(),
             half_m,
-            is_round,
-            reach_m: libm::hypot(radial_m, half_m.z),
+            outline,
+            reach_m: solid.shape.farthest_m(),
         }
     }
 }

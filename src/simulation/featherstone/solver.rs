@@ -4,7 +4,7 @@
 //! components go together (block Gauss–Seidel of contact dynamics: Moreau 1999; Jourdan, Alart and Jean 1998). A
 //! step begins with the impulses of the one before, which at rest are right already.
 
-use super::constraint::{Change, Contact, Entry, MotorRow};
+use super::constraint::{Change, Contact, Entry, MotorRow, Root};
 use super::contact::Touch;
 use super::factor::{Factor, Whitened};
 use super::spatial::Spatial;
@@ -26,7 +26,8 @@ pub struct Solver {
     pub contacts: Vec<Contact>,
     motor_entries: Vec<Entry<1>>,
     contact_entries: Vec<Entry<4>>,
-    change: Change,
+    /// What impulses have changed at each link's hinge.
+    hinges: Vec<f32>,
 }
 
 impl Solver {
@@ -37,7 +38,7 @@ impl Solver {
             contacts: Vec::new(),
             motor_entries: Vec::new(),
             contact_entries: Vec::new(),
-            change: Change { hinges: vec![0.0; links], ..Change::default() },
+            hinges: vec![0.0; links],
         }
     }
 
@@ -78,41 +79,45 @@ impl Solver {
 
     /// Finds the impulses, and adds what they change to whitened velocities.
     pub fn solve(&mut self, velocities: &mut Whitened) {
-        self.begin();
+        let mut root = self.begin();
         for _ in 0..SWEEPS_MAX {
-            if self.sweep() < TOLERANCE * TOLERANCE {
+            if self.sweep(&mut root) < TOLERANCE * TOLERANCE {
                 break;
             }
         }
-        for (velocity, change) in velocities.root.iter_mut().zip(self.change.root) {
+        for (velocity, change) in velocities.root.iter_mut().zip(root) {
             *velocity += f64::from(change);
         }
-        for (velocity, change) in velocities.hinges.iter_mut().zip(&self.change.hinges) {
+        for (velocity, change) in velocities.hinges.iter_mut().zip(&self.hinges) {
             *velocity += f64::from(*change);
         }
     }
 
-    /// What the impulses to begin with change.
-    fn begin(&mut self) {
-        self.change.root = Default::default();
-        self.change.hinges.fill(0.0);
+    /// What the impulses to begin with change: at the hinges, and, returned, at the root.
+    fn begin(&mut self) -> Root {
+        self.hinges.fill(0.0);
+        let mut change = Change { root: Root::default(), hinges: &mut self.hinges };
         for motor in &self.motors {
-            motor.push(motor.impulse_nms, &mut self.change, &self.motor_entries);
+            motor.push(motor.impulse_nms, &mut change, &self.motor_entries);
         }
         for contact in &self.contacts {
-            contact.push(contact.impulse_ns, &mut self.change, &self.contact_entries);
+            contact.push(contact.impulse_ns, &mut change, &self.contact_entries);
         }
+        change.root
     }
 
     /// Corrects every impulse once, and returns the largest square of a velocity that was wrong.
-    fn sweep(&mut self) -> f32 {
+    fn sweep(&mut self, root: &mut Root) -> f32 {
+        // The root is copied so that it stays in registers from row to row.
+        let mut change = Change { root: *root, hinges: &mut self.hinges };
         let mut worst = 0.0_f32;
         for motor in &mut self.motors {
-            worst = worst.max(motor.improve(&mut self.change, &self.motor_entries));
+            worst = worst.max(motor.improve(&mut change, &self.motor_entries));
         }
         for contact in &mut self.contacts {
-            worst = worst.max(contact.improve(&mut self.change, &self.contact_entries));
+            worst = worst.max(contact.improve(&mut change, &self.contact_entries));
         }
+        *root = change.root;
         worst
     }
 }

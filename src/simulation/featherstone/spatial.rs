@@ -139,7 +139,7 @@ impl RigidInertia {
     #[inline]
     pub fn times(&self, motion: &Spatial) -> Spatial {
         let momentum = motion.velocity_at(&self.centre_m) * self.mass_kg;
-        let spin = symmetric_times(&self.about_centre, &motion.angular());
+        let spin = applied(&self.about_centre, &motion.angular());
         Spatial::new(spin + self.centre_m.cross(&momentum), momentum)
     }
 
@@ -165,10 +165,18 @@ impl RigidInertia {
     }
 }
 
+/// The product of a matrix and a vector.
 #[inline]
-fn symmetric_times(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
+pub fn applied(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
     let column = |i: usize| matrix.column(i) * vector[i];
     column(0) + column(1) + column(2)
+}
+
+/// The product of two matrices.
+#[inline]
+pub fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
+    let column = |i: usize| applied(left, &right.column(i).into_owned());
+    Matrix3::from_columns(&[column(0), column(1), column(2)])
 }
 
 /// A spatial inertia, rigid or articulated: six columns, symmetric.

@@ -10,7 +10,7 @@ mod scene;
 use super::assembly::{Assembly, Hinge, Part, Solid};
 use super::trial::Trial;
 use super::world::World;
-use crate::creature::Shape;
+use crate::creature::{Inertia, Shape};
 use crate::evolution::Outcome;
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
 use rapier3d::prelude as rapier;
@@ -167,7 +167,32 @@ fn collider(solid: &Solid) -> rapier::ColliderBuilder {
         ),
     };
     let pose = to_rapier(&(solid.part_from_solid * solid_from_collider));
-    Scene::link_collider(builder).mass(solid.mass_kg as f32).position(pose)
+    let collider = Scene::link_collider(builder).position(pose);
+    match &solid.inertia {
+        None => collider.mass(solid.mass_kg as f32),
+        Some(inertia) => {
+            collider.mass_properties(mass_properties(solid.mass_kg, inertia, &solid_from_collider))
+        }
+    }
+}
+
+fn mass_properties(
+    mass_kg: f64,
+    inertia: &Inertia,
+    solid_from_collider: &Isometry3<f64>,
+) -> rapier::MassProperties {
+    let centre_m = solid_from_collider.inverse_transform_point(&inertia.centre_m.into());
+    let axes = solid_from_collider.rotation.to_rotation_matrix();
+    let moments = axes.transpose() * inertia.about_centre_kg_m2 * axes;
+    let column = |i| {
+        let column = moments.column(i).into_owned().cast::<f32>();
+        rapier::Vector::new(column.x, column.y, column.z)
+    };
+    rapier::MassProperties::with_inertia_matrix(
+        rapier::Vector::new(centre_m.x as f32, centre_m.y as f32, centre_m.z as f32),
+        mass_kg as f32,
+        rapier::Matrix::from_cols(column(0), column(1), column(2)),
+    )
 }
 
 fn to_rapier(pose: &Isometry3<f64>) -> rapier::Pose {

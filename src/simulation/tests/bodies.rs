@@ -24,8 +24,6 @@ impl Body {
     /// A body of one box, given half its size.
     pub fn of(half_extents_m: [f64; 3], mass_kg: f64) -> Self {
         Self(Creature {
-            traits: Vec::new(),
-            tree: Vec::new(),
             morphology: Morphology {
                 links: vec![cuboid(half_extents_m, mass_kg, None)],
                 root_rotation: UnitQuaternion::identity(),
@@ -60,7 +58,12 @@ impl Body {
 }
 
 fn cuboid(half_extents_m: [f64; 3], mass_kg: f64, joint: Option<Joint>) -> Link {
-    Link { shape: Shape::Cuboid { half_extents_m: half_extents_m.into() }, mass_kg, joint }
+    Link {
+        shape: Shape::Cuboid { half_extents_m: half_extents_m.into() },
+        mass_kg,
+        inertia: None,
+        joint,
+    }
 }
 
 /// A trunk with two limbs, one of which has a limb of its own; hinges about all three axes.

@@ -1,0 +1,233 @@
+//! Genomes that a run begins with, and the copy of them that it keeps.
+//!
+//! The result of a run depends on them, so its configuration holds their digest, and its folder what they are. They
+//! are dealt out by [`Founded`].
+
+use super::Failure;
+use super::config::{Config, POPULATION_MAX};
+use super::genomes;
+use crate::creature::Gene;
+use crate::formats::genome_csv;
+use crate::problems::{Founded, Locomotion};
+use crate::store::{RunDir, file};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// The largest copy, in bytes.
+const BYTES_MAX: usize = 256 << 20;
+/// The most files.
+const FILES_MAX: usize = 1_000_000;
+/// How deep folders are searched.
+const DEPTH_MAX: usize = 16;
+
+/// What a configuration says of the genomes that its run begins with.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct SeedGenomes {
+    /// How many there are.
+    pub count: usize,
+    /// The BLAKE3 hash of the copy in the run's folder.
+    pub digest: String,
+}
+
+impl SeedGenomes {
+    /// What stands in the copy of some genomes, and what a configuration says of it.
+    fn of(genomes: &[Vec<Gene>]) -> (Vec<u8>, Self) {
+        let mut copy = Vec::new();
+        genome_csv::write_all(genomes, &mut copy).expect("memory takes everything");
+        let said = Self { count: genomes.len(), digest: blake3::hash(&copy).to_string() };
+        (copy, said)
+    }
+}
+
+/// Finds the genomes that a run is to begin with, and sets in its configuration what it has to say of them: those
+/// that are named or, if none are, those of the run whose configuration was read.
+///
+/// # Errors
+/// If they cannot be read, or are longer than the run allows.
+pub fn find(
+    config: &mut Config,
+    named: &[PathBuf],
+    dropped: &[usize],
+    read_from: Option<&Path>,
+) -> Result<Vec<Vec<Gene>>, Failure> {
+    let found = match (&config.seed_genomes, read_from) {
+        _ if !named.is_empty() => read(named, genomes::dropped(dropped)?)?,
+        (Some(said), Some(file)) => load(&RunDir::at(file.with_file_name("")), said)?,
+        (Some(_), None) | (None, _) => Vec::new(),
+    };
+    if let Some(long) = found.iter().map(Vec::len).find(|&genes| genes > config.max_genes) {
+        return Err(Failure::usage(format!(
+            "a genome to begin with has {long} genes, more than --max-genes {}: allow more",
+            config.max_genes
+        )));
+    }
+    let used = found.len().min(config.islands as usize * config.population.min(POPULATION_MAX));
+    let found = found[..used].to_vec();
+    config.seed_genomes = (!found.is_empty()).then(|| SeedGenomes::of(&found).1);
+    Ok(found)
+}
+
+/// Writes the copy into the folder of a run that begins with some.
+///
+/// # Errors
+/// If the disk is full or gone.
+pub fn keep(dir: &RunDir, genomes: &[Vec<Gene>]) -> Result<(), Failure> {
+    if genomes.is_empty() {
+        return Ok(());
+    }
+    let (copy, _) = SeedGenomes::of(genomes);
+    Ok(dir.write(&dir.seed_genomes(), |out| out.write_all(&copy))?)
+}
+
+/// The problem of a run, and whom it begins with.
+///
+/// # Errors
+/// If the copy is not there, or not what the configuration says.
+pub fn founded(dir: &RunDir, config: &Config) -> Result<Founded<Locomotion>, Failure> {
+    let founders = config.seed_genomes.as_ref().map(|said| load(dir, said)).transpose()?;
+    Ok(Founded { problem: config.problem(), founders: founders.unwrap_or_default() })
+}
+
+/// Reads the copy in a run's folder.
+///
+/// # Errors
+/// If it is not there, or not what the configuration says.
+pub fn load(dir: &RunDir, said: &SeedGenomes) -> Result<Vec<Vec<Gene>>, Failure> {
+    let path = dir.seed_genomes();
+    let wrong = |reason: &dyn std::fmt::Display| {
+        let path = path.display();
+        Failure::usage(format!(
+            "cannot use {path}: {reason}; the run begins with the genomes in it"
+        ))
+    };
+    let text = file::read_text(&path, BYTES_MAX).map_err(|error| wrong(&error.reason()))?;
+    if blake3::hash(text.as_bytes()).to_string() != said.digest {
+        return Err(wrong(&"it is not what run.toml says of it"));
+    }
+    let genomes = genome_csv::read_all(&text).map_err(|error| wrong(&error))?;
+    match genomes.len() == said.count {
+        true => Ok(genomes),
+        false => Err(wrong(&"it holds another number of genomes than run.toml says")),
+    }
+}
+
+fn read(named: &[PathBuf], dropped: &[usize]) -> Result<Vec<Vec<Gene>>, Failure> {
+    let files = gather(named)?;
+    let read = |path: &PathBuf| {
+        genomes::read_quietly(path, dropped).map(|read| read.genome).map_err(|reason| {
+            let path = path.display();
+            Failure::usage(format!(
+                "cannot begin with {path}: {reason} (islands import sorts out what can be read)"
+            ))
+        })
+    };
+    files.iter().map(read).collect()
+}
+
+/// The files that are meant: a folder means every CSV below it, and a name with * or ? every file that fits. In the
+/// order in which they are named, those of a folder in the order of their names.
+///
+/// # Errors
+/// If there are none.
+pub fn gather(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for path in named {
+        let before = files.len();
+        if path.is_dir() {
+            below(path, DEPTH_MAX, &mut files)?;
+        } else if path.exists() || !is_pattern(path) {
+            files.push(path.clone());
+        } else {
+            fitting(path, &mut files)?;
+        }
+        if files.len() == before {
+            return Err(Failure::usage(format!("there is no CSV file in {}", path.display())));
+        }
+        if files.len() > FILES_MAX {
+            return Err(Failure::usage(format!("there are more than {FILES_MAX} files")));
+        }
+    }
+    Ok(files)
+}
+
+fn below(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    for path in entries(folder)? {
+        let is_csv = path.extension().is_some_and(|it| it.eq_ignore_ascii_case("csv"));
+        // A folder that is a link may lead back here.
+        if path.is_dir() && !path.is_symlink() && depth > 0 {
+            below(&path, depth - 1, files)?;
+        } else if is_csv && path.is_file() {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn fitting(pattern: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
+    let folder = pattern.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let name = name(pattern);
+    let fits =
+        |path: &PathBuf| path.is_file() && fits(name.as_bytes(), self::name(path).as_bytes());
+    let entries = entries(folder.unwrap_or(Path::new(".")))?.into_iter().filter(fits);
+    // A pattern without a folder names files without one.
+    files.extend(entries.map(|path| match folder {
+        None => PathBuf::from(self::name(&path)),
+        Some(_) => path,
+    }));
+    Ok(())
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let read = || -> std::io::Result<Vec<PathBuf>> {
+        std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
+    };
+    let mut entries = read().map_err(|error| {
+        Failure::usage(format!("cannot look into {}: {error}", folder.display()))
+    })?;
+    entries.sort();
+    Ok(entries)
+}
+
+fn is_pattern(path: &Path) -> bool {
+    name(path).contains(['*', '?'])
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Whether a name fits a pattern, in which ? is any character and * any number of them.
+fn fits(pattern: &[u8], name: &[u8]) -> bool {
+    // Where the last star was, and where the name goes on if it takes one character more.
+    let (mut p, mut n, mut star) = (0, 0, None);
+    while n < name.len() {
+        match pattern.get(p) {
+            Some(b'*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(&one) if one == b'?' || one == name[n] => (p, n) = (p + 1, n + 1),
+            _ => {
+                let Some((at, taken)) = star else { return false };
+                star = Some((at, taken + 1));
+                (p, n) = (at + 1, taken + 1);
+            }
+        }
+    }
+    pattern[p..].iter().all(|&rest| rest == b'*')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_is_any_text_and_a_question_mark_one_character() {
+        let all =
+            [("*.csv", "a.csv"), ("*", ""), ("a?c", "abc"), ("*a*b*", "xxaxxbxx"), ("a*a", "aaa")];
+        assert!(all.iter().all(|(pattern, name)| fits(pattern.as_bytes(), name.as_bytes())));
+        let none = [("*.csv", "a.csv2"), ("a?c", "ac"), ("", "a"), ("*a*b", "ba"), ("a", "ab")];
+        assert!(!none.iter().any(|(pattern, name)| fits(pattern.as_bytes(), name.as_bytes())));
+    }
+}
