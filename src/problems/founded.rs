@@ -61,6 +61,10 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.mutate(genome, variation, rng);
     }
 
+    fn confirm(&self, genome: &[P::Gene]) -> Option<Evaluation> {
+        self.problem.confirm(genome)
+    }
+
     fn cost(&self, genome: &[P::Gene]) -> u64 {
         self.problem.cost(genome)
     }
