@@ -3,7 +3,7 @@
 mod tools;
 
 use crate::support::{TINY, World, until};
-use islands::archipelago::Outbox;
+use islands::archipelago::{Births, Outbox};
 use islands::creature::Gene;
 use islands::evolution::Fitness;
 use islands::store::{Champion, Checkpoint, Entry, RecordLog, RunDir};
@@ -41,8 +41,9 @@ fn a_sound_run_is_verified_with_its_digest() {
 #[test]
 fn a_flipped_bit_is_found_in_every_file_that_has_a_checksum() {
     let world = evolved();
-    let files: [fn(&RunDir) -> PathBuf; 5] = [
+    let files: [fn(&RunDir) -> PathBuf; 6] = [
         |dir| dir.champions(0),
+        |dir| dir.lineages(1),
         |dir| dir.reports(1),
         |dir| dir.migrations(0),
         |dir| dir.checkpoint(0, 3),
@@ -56,7 +57,7 @@ fn a_flipped_bit_is_found_in_every_file_that_has_a_checksum() {
         finds(&world, file, |dir| cut(&file(dir), 1));
         finds(&world, file, |dir| lengthen(&file(dir)));
     }
-    for file in &files[..4] {
+    for file in &files[..5] {
         finds(&world, file, |dir| fs::remove_file(file(dir)).unwrap());
     }
 }
@@ -163,6 +164,16 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
     for wrong in champions {
         finds(&world, |dir| dir.champions(1), |dir| forge(&dir.champions(1), wrong));
     }
+    let lineages: [fn(&mut Vec<Births>); 5] = [
+        |log| log.swap(1, 2),
+        |log| drop(log[2].births.pop()),
+        |log| log[2].births[0].parents = [None; 2],
+        |log| log[1].births[0].parents[0].as_mut().unwrap().generation = 1,
+        |log| a_bit_more(&mut log[3].births[0].fitness),
+    ];
+    for wrong in lineages {
+        finds(&world, |dir| dir.lineages(1), |dir| forge(&dir.lineages(1), wrong));
+    }
     let outboxes: [fn(&mut Outboxes); 5] = [
         |outboxes| outboxes.swap(0, 1),
         |outboxes| outboxes[1].migrants.truncate(1),
@@ -173,6 +184,20 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
     for wrong in outboxes {
         finds(&world, |dir| dir.migrations(1), |dir| forge(&dir.migrations(1), wrong));
     }
+}
+
+#[test]
+fn a_champion_whom_its_ancestors_cannot_have_bred_is_found_without_simulating_anything() {
+    let world = evolved();
+    let forge_genome = |dir: &RunDir| {
+        let change = |champions: &mut Vec<Champion<Gene>>| {
+            champions[0].individual.genome[0].0[0] = 0.123;
+        };
+        forge(&dir.champions(1), change);
+    };
+    let verdict = finds(&world, |dir| dir.champions(1), forge_genome);
+    let said = verdict["damaged"][0].as_str().unwrap();
+    assert!(said.contains("the ancestors of 1.0.") && said.contains(" breed another"), "{said}");
 }
 
 #[test]

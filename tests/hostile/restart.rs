@@ -52,7 +52,7 @@ impl Shelf {
 
     fn filled_from(mut self, from: &RunDir) -> Self {
         let files = |dir: &RunDir| {
-            let logs = [dir.champions(0), dir.reports(0), dir.migrations(0)];
+            let logs = [dir.champions(0), dir.lineages(0), dir.reports(0), dir.migrations(0)];
             let [last, before] = [3, 2].map(|generation| dir.checkpoint(0, generation));
             logs.into_iter().chain([before, last])
         };

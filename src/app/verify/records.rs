@@ -3,7 +3,7 @@
 use super::check::{Check, counted};
 use super::retrial::Claim;
 use super::rules::Terms;
-use crate::archipelago::{Island, Outbox};
+use crate::archipelago::{Births, Island, Outbox};
 use crate::creature::Gene;
 use crate::store::{Champion, Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
@@ -19,6 +19,8 @@ pub struct Records {
     pub champions: Vec<Vec<Champion<Gene>>>,
     /// Each island's generations.
     pub reports: Vec<Vec<Entry>>,
+    /// Who was born on each island.
+    pub lineages: Vec<Vec<Births>>,
     /// What each island sent.
     pub outboxes: Vec<Vec<Outbox<Gene>>>,
 }
@@ -78,6 +80,7 @@ struct Reader<'a> {
     files: usize,
     checkpoints: Check,
     reports: Check,
+    lineages: Check,
     champions: Check,
     migrations: Check,
 }
@@ -90,6 +93,7 @@ impl<'a> Reader<'a> {
             files: 0,
             checkpoints: Check::of("checkpoints"),
             reports: Check::of("reports"),
+            lineages: Check::of("lineages"),
             champions: Check::of("champions"),
             migrations: Check::of("migrations"),
         }
@@ -110,6 +114,10 @@ impl<'a> Reader<'a> {
             ));
         }
 
+        let span = terms.span(state, |generation| generation + 1);
+        let rule = |births: &[_]| terms.lineages(births, &reports, state);
+        let lineages = read_log(&dir.lineages(island), &mut self.lineages, terms, span, rule);
+
         let span = usize::from(state.is_some())..=terms.config.generations as usize + 1;
         let rule = |champions: &[_]| terms.champions(champions, &reports, state);
         let champions = read_log(&dir.champions(island), &mut self.champions, terms, span, rule);
@@ -120,6 +128,7 @@ impl<'a> Reader<'a> {
 
         records.states.extend(newest);
         records.reports.push(reports);
+        records.lineages.push(lineages);
         records.champions.push(champions);
         records.outboxes.push(outboxes);
     }
@@ -160,10 +169,12 @@ impl<'a> Reader<'a> {
         fn all<T>(logs: &[Vec<T>]) -> usize {
             logs.iter().map(Vec::len).sum()
         }
-        let Self { files, checkpoints, reports, champions, migrations, .. } = self;
+        let Self { files, checkpoints, reports, lineages, champions, migrations, .. } = self;
+        let births = records.lineages.iter().flatten().map(|births| births.births.len()).sum();
         vec![
             checkpoints.checked(counted(files, "file")),
             reports.checked(counted(all(&records.reports), "generation")),
+            lineages.checked(counted(births, "birth")),
             champions.checked(counted(all(&records.champions), "champion")),
             migrations.checked(counted(all(&records.outboxes), "epoch")),
         ]
