@@ -12,6 +12,10 @@ mod hostile;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;
+#[cfg(feature = "view")]
+mod reel;
+#[cfg(feature = "view")]
+mod replay;
 mod resume;
 mod run;
 mod support;

@@ -5,7 +5,7 @@ mod tools;
 use crate::support::{TINY, World, until};
 use islands::archipelago::{Births, Outbox};
 use islands::creature::Gene;
-use islands::evolution::Fitness;
+use islands::evolution::{Fitness, Id};
 use islands::store::{Champion, Checkpoint, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::fs;
@@ -101,10 +101,10 @@ fn a_genome_that_cannot_have_lived_is_a_mismatch_and_not_simulated() {
                 wrong(&mut champions[0].individual.genome);
             });
         });
-        let ending = verify(&world, "changed --json");
-        assert_eq!(ending.code, Some(1), "{ending:?}");
-        assert!(ending.stderr.contains("has a genome that cannot have lived"), "{ending:?}");
-        let verdict = ending.json();
+        let table = verify(&world, "changed");
+        assert_eq!(table.code, Some(1), "{table:?}");
+        assert!(table.stdout.contains("has a genome that cannot have lived"), "{table:?}");
+        let verdict = verify(&world, "changed --json").json();
         assert_eq!(verdict["mismatches"][0]["found"], Value::Null, "{verdict}");
     }
 }
@@ -116,10 +116,18 @@ fn residents_and_migrants_are_simulated_again_if_that_is_asked_for() {
     let dir = changed(&world, |dir| {
         fs::remove_file(dir.summary()).unwrap();
         (0..2).for_each(|island| fs::remove_file(dir.checkpoint(island, 3)).unwrap());
+        let mut forged = None;
         forge_state(dir, 1, 2, |saved| {
             let champion = saved.island.champion.fitness;
             let worse = saved.island.population.iter_mut().find(|i| i.fitness < champion);
-            a_bit_more(&mut worse.unwrap().fitness);
+            let worse = worse.unwrap();
+            a_bit_more(&mut worse.fitness);
+            forged = Some(worse.id);
+        });
+        // Nor must the records contradict it.
+        let Id { island, generation, index } = forged.unwrap();
+        forge(&dir.lineages(island), |log: &mut Vec<Births>| {
+            a_bit_more(&mut log[generation as usize].births[index as usize].fitness);
         });
         forge(&dir.migrations(0), |outboxes: &mut Vec<Outbox<Gene>>| {
             let worst = &mut outboxes[2].migrants[1].fitness;
@@ -193,11 +201,11 @@ fn a_champion_whom_its_ancestors_cannot_have_bred_is_found_without_simulating_an
         let change = |champions: &mut Vec<Champion<Gene>>| {
             champions[0].individual.genome[0].0[0] = 0.123;
         };
-        forge(&dir.champions(1), change);
+        forge(&dir.champions(0), change);
     };
-    let verdict = finds(&world, |dir| dir.champions(1), forge_genome);
+    let verdict = finds(&world, |dir| dir.champions(0), forge_genome);
     let said = verdict["damaged"][0].as_str().unwrap();
-    assert!(said.contains("the ancestors of 1.0.") && said.contains(" breed another"), "{said}");
+    assert!(said.contains("the ancestors of 0.0.") && said.contains(" breed another"), "{said}");
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! starts a process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they
 //! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
-//! `evaluate`, `inspect` and `replay` look at single `genomes`. `console` prints and reads the clock, `table` lays out.
+//! `evaluate`, `inspect` and `replay` look at single `genomes`; `pedigree` puts ancestries
+//! into words, and `viewer` opens a viewer. `console` prints and reads the clock, `table` lays out.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
@@ -19,12 +20,16 @@ mod inspect;
 mod island;
 mod kinship;
 mod monitor;
+#[cfg(feature = "view")]
+mod pedigree;
 mod replay;
 mod result;
 mod run;
 mod settings;
 mod table;
 mod verify;
+#[cfg(feature = "view")]
+mod viewer;
 
 use crate::store::{RunDir, StoreError};
 use cli::Command;

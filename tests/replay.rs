@@ -1,0 +1,103 @@
+//! A replay shows what was scored.
+
+use crate::reel::Recording;
+use crate::support::{TINY, World};
+use islands::creature::{Gene, Profile};
+use islands::formats::genome_csv;
+use islands::problems::{Locomotion, Task};
+use islands::store::{Champion, RecordLog, RunDir};
+
+const WALK: Locomotion = Locomotion { genes: 2, ..Locomotion::DEFAULT };
+
+#[test]
+fn a_replay_shows_the_simulation_that_got_the_score() {
+    let world = World::new();
+    let run = world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
+    let ending = world.islands("replay run/champion.csv --out champion.rrd");
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    let score = format!("{:.3} m", run["best_fitness"].as_f64().unwrap());
+    assert!(ending.stdout.contains(&score), "{ending:?}");
+    assert!(ending.stdout.ends_with("view it:  rerun champion.rrd\n"), "{ending:?}");
+
+    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
+    let (evaluation, film) = WALK.film(&genome).unwrap();
+    assert_eq!(run["best_fitness"], evaluation.fitness.get());
+    Recording::read(&world.path("champion.rrd")).assert_ends_with(0, &film, Task::Walk);
+}
+
+#[test]
+fn several_creatures_race_in_one_replay() {
+    let world = World::new();
+    let course = |i| format!("genome_{i}.csv");
+    for i in [1, 2] {
+        world.write(&course(i), crate::course::fixture(&course(i)));
+    }
+    let problem = Locomotion { profile: Profile::Coursework, task: Task::Course, ..WALK };
+    let files = [1, 2].map(course).join(" ");
+    let ending =
+        world.islands(&format!("replay {files} --profile coursework --task course --out race.rrd"));
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    let recording = Recording::read(&world.path("race.rrd"));
+    for (lane, i) in [(0, 1), (1, 2)] {
+        let genome = genome_csv::read(world.read(&course(i)).as_bytes()).unwrap().genome;
+        let (_, film) = problem.film(&genome).unwrap();
+        recording.assert_ends_with(lane, &film, Task::Course);
+    }
+}
+
+#[test]
+fn the_ancestors_of_a_champion_are_bred_again_from_a_random_body_on() {
+    let world = World::new();
+    let settings = "--population 6 --generations 8 --genes 2 --migration-interval 1 --migrants 2";
+    world.json(&format!("--n 2 --seed 41 --out run --quiet --no-monitor --json {settings}"));
+    let ending = world.islands("replay run --ancestry");
+    assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
+    let rows: Vec<&str> = ending.stdout.lines().collect();
+    assert!(rows.len() > 2 && rows[0].ends_with("random"), "{ending:?}");
+    assert_eq!(*rows.last().unwrap(), "view it:  rerun run/ancestry.rrd");
+
+    let recording = Recording::read(&world.path("run/ancestry.rrd"));
+    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
+    let (_, film) = WALK.film(&genome).unwrap();
+    let last = rows.len() as u32 - 2;
+    recording.assert_ends_with(last, &film, Task::Walk);
+}
+
+#[test]
+fn the_champions_of_a_run_are_shown_through_its_generations() {
+    let world = World::new();
+    world.json(&format!("--n 2 --seed 41 --out run --quiet --no-monitor --json {TINY}"));
+    let dir = RunDir::at(world.path("run"));
+    let mut champions: Vec<Champion<Gene>> = (0..2)
+        .flat_map(|island| RecordLog::read(&dir.champions(island)).unwrap().records)
+        .collect();
+    champions.sort_by_key(|champion| (champion.generation, champion.individual.id.island));
+    let ending = world.islands("replay run --out film.rrd");
+    assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
+    let best = champions.iter().max_by_key(|champion| champion.individual.fitness).unwrap();
+    let (_, film) = WALK.film(&best.individual.genome).unwrap();
+    let shown = ending.stdout.lines().count() as u32 - 1;
+    Recording::read(&world.path("film.rrd")).assert_ends_with(shown - 1, &film, Task::Walk);
+}
+
+#[test]
+fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
+    let world = World::new();
+    world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
+    let ending = world.islands("replay run/champion.csv --seconds 12");
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    let recording = Recording::read(&world.path("run/champion.rrd"));
+    // A second of settling, and a frame for each sixtieth but the last.
+    let frames = ["boxes", "cylinders"]
+        .map(|kind| recording.frames(&format!("/islands/0/champion/{kind}")).len());
+    assert_eq!(frames.into_iter().max(), Some(13 * 60));
+    for (wish, reason) in [
+        ("run run/champion.csv", "a run is replayed alone"),
+        ("run/champion.csv --ancestry", "a genome alone has no ancestors"),
+        ("run/champion.csv --seconds 0", "seconds must be from 0.1 to 3600, not 0"),
+        ("run --ancestry --max-links 0", "max-links must be from 1"),
+    ] {
+        let said = world.refusal(&format!("replay {wish}"));
+        assert!(said.contains(reason), "{said}");
+    }
+}
