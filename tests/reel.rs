@@ -111,7 +111,7 @@ impl Recording {
                     found.map(|column| column.times_raw()[row])
                 };
                 for column in chunk.components().values() {
-                    if column.list_array.value(row).len() == 0 {
+                    if column.list_array.value(row).is_empty() {
                         continue;
                     }
                     let name = column.descriptor.to_string();

@@ -174,7 +174,7 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
     }
     let lineages: [fn(&mut Vec<Births>); 5] = [
         |log| log.swap(1, 2),
-        |log| drop(log[2].births.pop()),
+        |log| log[2].births.truncate(1),
         |log| log[2].births[0].parents = [None; 2],
         |log| log[1].births[0].parents[0].as_mut().unwrap().generation = 1,
         |log| a_bit_more(&mut log[3].births[0].fitness),

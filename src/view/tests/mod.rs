@@ -8,6 +8,7 @@ use kit::*;
 use nalgebra::{UnitQuaternion, Vector3};
 use rerun::StoreKind;
 use rerun::log::{Chunk, LogMsg};
+use std::f64::consts::TAU;
 use std::path::Path;
 
 #[test]
@@ -50,7 +51,7 @@ fn a_champion_runs_along_its_lane_from_the_start_line_whichever_way_it_was_simul
         });
         points(&chunks, "/islands/0/follow", "Transform3D:translation")
     };
-    for turn in [0.0, 0.7, 2.0, 3.141, -1.5] {
+    for turn in [0.0, 0.7, 2.0, TAU / 2.0, -1.5] {
         let follow = way(turn);
         let ([first, ..], [.., last]) = (&follow[..], &follow[..]) else { panic!("{follow:?}") };
         assert!(first[0].abs() < 0.7 && first[1].abs() < 0.05, "{turn}: {first:?}");
