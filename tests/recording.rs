@@ -271,6 +271,7 @@ fn a_wished_port_that_is_taken_is_said_and_nobody_is_served_if_that_is_wished() 
 #[test]
 fn a_viewer_is_opened_if_it_is_there_and_of_the_right_version_and_otherwise_said_how_to_get() {
     let world = World::new();
+    std::fs::create_dir(world.path("bin")).unwrap();
     world.write("bin/rerun", "#!/bin/sh\necho 'rerun-cli 0.1.0'\n");
     std::fs::set_permissions(world.path("bin/rerun"), PermissionsExt::from_mode(0o755)).unwrap();
     world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));

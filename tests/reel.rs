@@ -105,6 +105,10 @@ impl Recording {
         let mut rows: BTreeMap<_, Vec<String>> = BTreeMap::new();
         for chunk in &self.0 {
             let path = chunk.entity_path().to_string();
+            // When it was made.
+            if path == "/__properties" {
+                continue;
+            }
             for row in 0..chunk.num_rows() {
                 let time = |name| {
                     let found = chunk.timelines().values().find(|found| found.name() == name);

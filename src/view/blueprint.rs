@@ -37,7 +37,7 @@ pub enum Audience {
 const VIEWS_PER_PAGE: u32 = 9;
 
 /// The legend of more curves than this hides them.
-const LEGEND_MAX: u32 = 9;
+const LEGEND_MAX: u32 = 6;
 
 /// A blueprint as messages for a sink.
 pub fn messages(

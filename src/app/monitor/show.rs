@@ -103,8 +103,8 @@ impl Show {
         loop {
             let began_s = cpu_s();
             if self.look()? {
-                // A recording that replaces none has nothing to wait for.
-                if !self.dir.recording().exists() {
+                // A recording that replaces none has nothing to wait for, while the islands may long be ahead.
+                if self.is_under_way()? && !self.dir.recording().exists() {
                     self.cinema.publish()?;
                 }
                 self.rest(REST * (cpu_s() - began_s))?;
@@ -114,7 +114,7 @@ impl Show {
                 return self.end();
             }
             // What was written before this is read after it.
-            last = self.ear.heard_stop() || !(self.launched || self.dir.is_under_way()?);
+            last = self.ear.heard_stop() || !self.is_under_way()?;
             if !last {
                 self.cinema.publish()?;
                 std::thread::sleep(LOOK);
@@ -125,13 +125,14 @@ impl Show {
     /// Leaves the cores to the islands for a while, unless they have ended.
     fn rest(&self, seconds: f64) -> Result<(), Failure> {
         let watch = Stopwatch::start();
-        while watch.seconds() < seconds && !self.ear.heard_stop() {
-            if !self.launched && !self.dir.is_under_way()? {
-                break;
-            }
+        while watch.seconds() < seconds && !self.ear.heard_stop() && self.is_under_way()? {
             std::thread::sleep(LOOK);
         }
         Ok(())
+    }
+
+    fn is_under_way(&self) -> Result<bool, Failure> {
+        Ok(self.launched || self.dir.is_under_way()?)
     }
 
     /// Shows what is there, or a part of it; whether there was something.
