@@ -16,7 +16,7 @@
 
 mod program;
 
-use program::median;
+use program::{median, number};
 use serde_json::Value;
 
 const ISLANDS: [usize; 3] = [1, 2, 4];
@@ -67,10 +67,9 @@ fn main() {
         for setting in &mut settings {
             let before_ms = processor_ms_of_children();
             let summary = run(setting.islands, setting.threads, budget);
-            let number = |name: &str| summary[name].as_f64().expect("a summary has this number");
-            setting.speeds.push(number("evaluations_per_second"));
+            setting.speeds.push(number(&summary, "evaluations_per_second"));
             let used_ms = processor_ms_of_children() - before_ms;
-            setting.costs_ms.push(used_ms / number("evaluations"));
+            setting.costs_ms.push(used_ms / number(&summary, "evaluations"));
             let row = ISLANDS.iter().position(|&islands| islands == setting.islands);
             let first = &mut digests[row.expect("it is one of them")];
             let digest = summary["digest"].clone();

@@ -15,7 +15,7 @@ mod program;
 use islands::app::config::Config;
 use islands::archipelago::{Step, island};
 use islands::store::{Logbook, RunDir};
-use program::median;
+use program::{median, number};
 use serde_json::Value;
 use std::time::Instant;
 
@@ -93,7 +93,7 @@ fn save(times: usize) -> (f64, f64) {
     for generation in 0..times {
         step.report.generation = generation as u32;
         step.island.generation = generation as u32;
-        step.new_champion = false;
+        step.champion = None;
         let before = Instant::now();
         logbook.record(&step, 1.0).expect("the disk has room");
         let between = Instant::now();
@@ -102,8 +102,4 @@ fn save(times: usize) -> (f64, f64) {
         saves.push(between.elapsed().as_secs_f64() * 1e3);
     }
     (median(&saves), median(&records))
-}
-
-fn number(summary: &Value, name: &str) -> f64 {
-    summary[name].as_f64().expect("a summary has this number")
 }

@@ -1,12 +1,13 @@
-//! How fast bodies are tried, by the number of their links: simulation steps a second on one thread.
+//! How fast bodies are tried, by engine and the number of their links: simulation steps a second on one thread.
 //!
 //! `cargo bench --bench evaluation`
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
 use islands::creature::Gene;
 use islands::evolution::{Outcome, Problem};
-use islands::problems::Locomotion;
+use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
+use islands::simulation::Engine;
 use std::time::Duration;
 
 /// The last is the most that the default settings build.
@@ -23,7 +24,8 @@ fn main() {
 }
 
 fn evaluation(criterion: &mut Criterion) {
-    let problem = Locomotion { genes: 1, ..Locomotion::default() };
+    // This task alone has as many steps for every body.
+    let problem = Locomotion { task: Task::Course, genes: 1, ..Locomotion::default() };
     let mut group = criterion.benchmark_group("evaluation");
     group
         .sample_size(10)
@@ -34,11 +36,15 @@ fn evaluation(criterion: &mut Criterion) {
         let genomes = genomes_of(&problem, links);
         let steps = u64::from(problem.task.trial().steps()) * genomes.len() as u64;
         group.throughput(Throughput::Elements(steps));
-        group.bench_with_input(BenchmarkId::new("links", links), &genomes, |bencher, genomes| {
-            bencher.iter(|| -> f64 {
-                genomes.iter().map(|genome| problem.evaluate(genome).fitness.get()).sum()
+        for engine in Engine::ALL {
+            let problem = Locomotion { engine, ..problem };
+            let id = BenchmarkId::new(engine.to_string(), links);
+            group.bench_with_input(id, &genomes, |bencher, genomes| {
+                bencher.iter(|| -> f64 {
+                    genomes.iter().map(|genome| problem.evaluate(genome).fitness.get()).sum()
+                });
             });
-        });
+        }
     }
     group.finish();
 }

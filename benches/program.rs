@@ -7,11 +7,15 @@ use tempfile::TempDir;
 /// Runs the program with these settings, and returns its result.
 pub fn run(settings: &[String]) -> Value {
     let folder = folder();
+    let usual = ["--json", "--no-monitor", "--quiet"].map(str::to_owned);
+    let out = format!("--out={}", folder.path().display());
+    json(&[&usual, settings, &[out]].concat())
+}
+
+/// Does something else with the program, and returns the JSON that it prints last.
+pub fn json(arguments: &[String]) -> Value {
     let output = Command::new(env!("CARGO_BIN_EXE_islands"))
-        .args(["--json", "--no-monitor", "--quiet"])
-        .args(settings)
-        .arg("--out")
-        .arg(folder.path())
+        .args(arguments)
         .stderr(Stdio::inherit())
         .output()
         .expect("the program starts");
@@ -19,6 +23,11 @@ pub fn run(settings: &[String]) -> Value {
     let text = String::from_utf8(output.stdout).expect("it prints text");
     let last = text.lines().last().expect("it prints its result");
     serde_json::from_str(last).expect("its result is JSON")
+}
+
+/// A number of its result.
+pub fn number(result: &Value, name: &str) -> f64 {
+    result[name].as_f64().expect("the result has this number")
 }
 
 /// A folder on the disk that the program was built on: what is temporary elsewhere may lie in memory.

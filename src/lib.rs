@@ -15,7 +15,7 @@
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
-//! |   | [`simulation`] | bodies tried in rapier |
+//! |   | [`simulation`] | bodies tried in rapier or a stepper of our own |
 //! | 3 | [`problems`] | what can be evolved: creatures that move |
 //! | 4 | [`transport`] | exchange between processes through iceoryx2 |
 //! |   | [`store`] | what a run leaves on disk |

@@ -195,16 +195,18 @@ fn evaluate_scores_each_file_and_measures_its_speed() {
     world.write("a.csv", csv(&genomes[0]));
     world.write("b.csv", csv(&genomes[1]));
     for settings in ["--threads 1", "--threads 3 --repeat 2", ""] {
-        let scores = world.json(&format!("evaluate a.csv b.csv {settings} --json"));
-        for (i, genome) in genomes.iter().enumerate() {
+        let scores = world.json(&format!("evaluate a.csv b.csv a.csv {settings} --json"));
+        for (i, file) in [0, 1, 0].into_iter().enumerate() {
+            let genome = &genomes[file];
             let fitness = scores["genomes"][i]["fitness"].as_f64().unwrap();
             assert_eq!(fitness.to_bits(), LOCOMOTION.evaluate(genome).fitness.get().to_bits());
             assert_eq!(scores["genomes"][i]["outcome"], "scored");
-            assert_eq!(scores["genomes"][i]["genome"], ["a.csv", "b.csv"][i]);
+            assert_eq!(scores["genomes"][i]["genome"], ["a.csv", "b.csv"][file]);
         }
-        assert_eq!(scores["genomes"].as_array().unwrap().len(), 2);
+        assert_eq!(scores["genomes"].as_array().unwrap().len(), 3);
         let repeats = if settings.contains("--repeat 2") { 2 } else { 1 };
-        assert_eq!(scores["evaluations"], 2 * repeats);
+        // What is measured is done, also a file that is named twice.
+        assert_eq!(scores["evaluations"], 3 * repeats);
         for key in ["evaluations_per_second", "steps_per_second"] {
             assert!(scores[key].as_f64().unwrap() > 0.0, "{key} in {scores}");
         }

@@ -9,6 +9,7 @@ use islands::app::config::Config;
 use islands::archipelago::{Digest, Step, lockstep};
 use islands::creature::Gene;
 use islands::formats::metrics::{self, Row};
+use islands::simulation::Engine;
 use islands::store::RunDir;
 use std::collections::BTreeSet;
 use std::fs;
@@ -79,14 +80,22 @@ fn every_part_of_a_seed_matters() {
 fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     let goldens = goldens();
     let names: Vec<_> = goldens.iter().map(|path| path.file_stem().unwrap()).collect();
-    assert_eq!(names, ["course-coursework", "debug", "travel-lecture", "walk-native"]);
+    let expected = [
+        "course-coursework",
+        "debug",
+        "debug-featherstone",
+        "travel-lecture",
+        "walk-featherstone",
+        "walk-native",
+    ];
+    assert_eq!(names, expected);
     let world = World::new();
     let mut wrong = Vec::new();
     for config in &goldens {
         let name = config.file_stem().unwrap().to_str().unwrap();
         let (found, rows) = in_processes(&world, name, &format!("--config {}", config.display()));
         // One that nobody travels in would not show a change of the exchange.
-        assert!(name == "debug" || rows.iter().any(|row| row.immigrants > 0), "{name}");
+        assert!(name.starts_with("debug") || rows.iter().any(|row| row.immigrants > 0), "{name}");
         let file = config.with_extension("digest");
         if std::env::var_os(BLESS).is_some() {
             fs::write(&file, format!("{found}\n")).unwrap();
@@ -98,6 +107,19 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     }
     let advice = "if results are meant to change: ISLANDS_BLESS=1 cargo test --release golden";
     assert!(wrong.is_empty(), "{}\n{advice}", wrong.join("\n"));
+}
+
+/// What a debug build makes of those called so is part of the gate.
+#[test]
+fn every_engine_has_a_golden_run_and_one_for_a_debug_build() {
+    let engine = |path: &PathBuf| Config::read(path).unwrap().engine;
+    let is_debug =
+        |path: &&PathBuf| path.file_stem().unwrap().to_str().unwrap().starts_with("debug");
+    let (debug, release): (Vec<_>, Vec<_>) = goldens().into_iter().partition(|p| is_debug(&p));
+    for wanted in Engine::ALL {
+        assert!(debug.iter().any(|path| engine(path) == wanted), "{wanted} in debug");
+        assert!(release.iter().any(|path| engine(path) == wanted), "{wanted}");
+    }
 }
 
 /// The configurations, in order.

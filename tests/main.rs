@@ -3,8 +3,10 @@
 mod chaos;
 mod cleaning;
 mod cli;
+mod confirmation;
 mod course;
 mod determinism;
+mod exploits;
 mod faults;
 mod forger;
 mod format;

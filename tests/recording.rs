@@ -2,11 +2,12 @@
 
 use crate::reel::Recording;
 use crate::support::{Ending, TINY, World, await_generation, signal, until};
+use islands::archipelago::Champion;
 use islands::creature::Gene;
 use islands::evolution::Fitness;
 use islands::formats::metrics;
 use islands::problems::{Locomotion, Task};
-use islands::store::{Champion, Entry, RecordLog, RunDir, checkpoint};
+use islands::store::{Entry, RecordLog, RunDir, checkpoint};
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeSet;
 use std::os::unix::fs::PermissionsExt;
@@ -155,7 +156,7 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     // The next number after the one that it gets.
     individual.fitness = Fitness::new(individual.fitness.get().next_up());
     let champions: Vec<_> = (0..=31)
-        .map(|generation| Champion { generation, individual: individual.clone() })
+        .map(|generation| Champion { generation, individual: individual.clone(), confirmed: None })
         .collect();
     rewrite(&path, &champions);
 

@@ -16,6 +16,7 @@ pub fn kind(shape: &Shape) -> &'static str {
     match shape {
         Shape::Cuboid { .. } => "boxes",
         Shape::Cylinder { .. } => "cylinders",
+        Shape::Sphere { .. } | Shape::Capsule { .. } => "capsules",
     }
 }
 

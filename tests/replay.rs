@@ -2,10 +2,11 @@
 
 use crate::reel::Recording;
 use crate::support::{TINY, World};
+use islands::archipelago::Champion;
 use islands::creature::{Gene, Profile};
 use islands::formats::genome_csv;
 use islands::problems::{Locomotion, Task};
-use islands::store::{Champion, RecordLog, RunDir};
+use islands::store::{RecordLog, RunDir};
 
 const WALK: Locomotion = Locomotion { genes: 2, ..Locomotion::DEFAULT };
 

@@ -71,6 +71,24 @@ fn the_metrics_have_a_row_an_island_and_generation_in_order() {
 }
 
 #[test]
+fn the_last_lines_say_what_was_evaluated_what_failed_and_what_was_not_evaluated_again() {
+    let world = World::new();
+    let ending = world.islands(&format!("--n 2 --seed 5 --out run --no-monitor {TINY}"));
+    let summary: Value = serde_json::from_str(&world.read("run/summary.json")).unwrap();
+    let count = |name: &str| summary[name].as_u64().unwrap();
+    assert!(count("reused") > 0, "{summary}");
+    let found = format!("found in {} evaluations, ", count("evaluations"));
+    let failed = format!("; {} failed", count("failures"));
+    let reused = format!("reused   {} scores, of genomes known already", count("reused"));
+    let lines: Vec<&str> = ending.stdout.lines().collect();
+    assert!(lines[1].starts_with(&found) && lines[1].ends_with(&failed), "{ending:?}");
+    assert_eq!(lines[2], reused);
+    let rows = metrics::read(world.read("run/metrics.csv").as_bytes()).unwrap();
+    assert_eq!(rows.iter().map(|row| row.reused).sum::<u64>(), count("reused"));
+    assert_eq!(rows.iter().map(|row| row.failures).sum::<u64>(), count("failures"));
+}
+
+#[test]
 fn the_champion_in_the_file_gets_exactly_the_fitness_that_is_claimed() {
     for task in ["walk", "travel"] {
         let world = World::new();

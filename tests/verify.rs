@@ -3,10 +3,10 @@
 mod tools;
 
 use crate::support::{TINY, World, until};
-use islands::archipelago::{Births, Outbox};
+use islands::archipelago::{Births, Champion, Outbox};
 use islands::creature::Gene;
 use islands::evolution::{Fitness, Id};
-use islands::store::{Champion, Checkpoint, Entry, RecordLog, RunDir};
+use islands::store::{Checkpoint, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -75,7 +75,7 @@ fn a_champion_that_is_not_as_good_as_recorded_is_found_by_simulating_it_again() 
     };
     let mut forged = None;
     let verdict = finds(&world, |dir| dir.champions(1), |dir| forged = Some(last(dir)));
-    let Champion { generation, individual } = forged.unwrap();
+    let Champion { generation, individual, .. } = forged.unwrap();
     let fitness = individual.fitness.get();
     let expected = serde_json::json!([{
         "who": "champion",

@@ -195,7 +195,8 @@ pub struct TrialArgs {
     /// How genes are read: native, lecture or coursework
     #[arg(long, default_value_t)]
     pub profile: Profile,
-    /// What moves the body: rapier (the engine of record)
+    /// What moves the body: rapier (the engine of record) or featherstone (several times as
+    /// fast)
     #[arg(long, default_value_t)]
     pub engine: Engine,
     /// No body gets more links than this, but for profile coursework

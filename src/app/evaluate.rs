@@ -21,7 +21,7 @@ struct Scores {
     threads: usize,
     wall_seconds: f64,
     evaluations_per_second: f64,
-    /// Simulation steps of trials that ran to their end.
+    /// Simulation steps of trials that ran to their end; of settling, which lasts as long as it takes, one round.
     steps_per_second: f64,
 }
 

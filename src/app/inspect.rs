@@ -3,7 +3,7 @@
 use super::cli::InspectArgs;
 use super::console::print;
 use super::{Failure, genomes};
-use crate::creature::{self, Creature, JointKind, Shape};
+use crate::creature::{self, Creature, JointKind};
 use crate::formats::Inspection;
 
 /// Shows the body of the genome in a file.
@@ -34,10 +34,7 @@ fn table(creature: &Creature) {
     );
     for (index, (copy, link)) in creature.tree.iter().zip(&creature.morphology.links).enumerate() {
         let traits = &creature.traits[copy.gene];
-        let shape = match link.shape {
-            Shape::Cylinder { .. } => "cylinder",
-            Shape::Cuboid { .. } => "box",
-        };
+        let shape = link.shape.name();
         let joint = match link.joint.as_ref().map(|joint| joint.kind) {
             None => "root",
             Some(JointKind::Fixed) => "fixed",

@@ -1,6 +1,7 @@
 //! Ancestries in words.
 
-use crate::archipelago::{Birth, Lineage};
+use crate::archipelago::{Birth, Champion, Lineage};
+use crate::creature::Gene;
 use crate::evolution::{Fitness, Id, Problem};
 use crate::problems::Locomotion;
 use crate::view::Family;
@@ -71,6 +72,15 @@ pub fn short(problem: &Locomotion, fitness: Fitness) -> String {
     match fitness.finite() {
         Some(score) => format!("{score:.2} {}", problem.unit()),
         None => "failed".to_owned(),
+    }
+}
+
+/// The same of a champion, and what it was confirmed to be.
+pub fn standing(problem: &Locomotion, champion: &Champion<Gene>) -> String {
+    let score = short(problem, champion.individual.fitness);
+    match champion.confirmed {
+        Some(confirmed) => format!("{score} ({} in rapier)", short(problem, confirmed)),
+        None => score,
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::Failure;
 use super::config::Config;
-use crate::archipelago::{Digest, Island};
+use crate::archipelago::{Champion, Digest, Island};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Individual, Problem};
 use crate::formats::{genome_csv, metrics, urdf};
 use crate::problems::Locomotion;
-use crate::store::{Champion, Entry, RecordLog, RunDir, StoreError, checkpoint, file};
+use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint, file};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -20,8 +20,12 @@ pub const SUMMARY_BYTES_MAX: usize = 1 << 20;
 pub struct Summary {
     /// The digest of all final populations: equal for equal seeds and settings.
     pub digest: String,
-    /// The best fitness ever; the most negative number there is if nothing could be scored.
+    /// The fitness of the champion that is kept: the best ever, or among those whose fitness was confirmed the one
+    /// that is worth most then. The most negative number there is if nothing could be scored.
     pub best_fitness: f64,
+    /// What rapier gives to the same champion, where another engine has evolved it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub best_confirmed: Option<f64>,
     /// The same as people read it.
     #[serde(skip)]
     pub best: String,
@@ -45,7 +49,7 @@ pub struct Summary {
     pub profile: String,
     /// Evaluations that were really run.
     pub evaluations: u64,
-    /// Offspring whose fitness was known already.
+    /// Offspring whose fitness was known already, so that they were not evaluated.
     pub reused: u64,
     /// Evaluations that did not end in a score.
     pub failures: u64,
@@ -68,10 +72,12 @@ pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
     let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
     let islands = final_islands(dir, config).ok()?;
+    let champions = champions(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
-    is_sound.then(|| Summary {
-        best: config.problem().show(best(&islands).champion.fitness),
+    let (_, best) = best(&champions).filter(|_| is_sound)?;
+    Some(Summary {
+        best: show(&config.problem(), best),
         // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
@@ -88,8 +94,10 @@ pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
 pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
     let reports = write_metrics(dir, config)?;
-    write_champion(dir, &config.problem(), &best(&islands).champion)?;
-    let summary = summarise(dir, config, &islands, &reports);
+    let champions = champions(dir, config)?;
+    let best = best(&champions).ok_or_else(|| Failure::failed("no island has a champion"))?;
+    write_champion(dir, &config.problem(), &best.1.individual)?;
+    let summary = summarise(dir, config, &islands, best, &reports);
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)
 }
@@ -99,18 +107,20 @@ pub fn summarise(
     dir: &RunDir,
     config: &Config,
     islands: &[Island<Gene>],
+    best: (u32, &Champion<Gene>),
     reports: &[Vec<Entry>],
 ) -> Summary {
     let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
-    let (best, problem) = (best(islands), config.problem());
+    let ((best_island, best), problem) = (best, config.problem());
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     Summary {
         digest: Digest::of(islands).to_string(),
-        best_fitness: best.champion.fitness.saturated(),
-        best: problem.show(best.champion.fitness),
+        best_fitness: best.individual.fitness.saturated(),
+        best_confirmed: best.confirmed.map(Fitness::saturated),
+        best: show(&problem, best),
         best_genome: dir.champion_genome(),
-        best_island: best.index,
+        best_island,
         unit: problem.unit().to_owned(),
         islands: config.islands,
         seed: config.seed.unwrap_or_default(),
@@ -150,14 +160,25 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, S
     Ok(reports)
 }
 
-/// The island with the best champion, the first of equal ones.
-pub fn best(islands: &[Island<Gene>]) -> &Island<Gene> {
-    islands
-        .iter()
-        .reduce(
-            |best, next| if next.champion.fitness > best.champion.fitness { next } else { best },
-        )
-        .expect("a run has at least one island")
+/// The champion that is worth most, and its island: of all that each island ever had, the first of equal ones.
+pub fn best(champions: &[Vec<Champion<Gene>>]) -> Option<(u32, &Champion<Gene>)> {
+    let islands = (0..).zip(champions);
+    let all = islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)));
+    all.reduce(|best, next| if next.1.standing() > best.1.standing() { next } else { best })
+}
+
+/// A champion's fitness as people read it, and what it was confirmed to be.
+pub fn show(problem: &Locomotion, champion: &Champion<Gene>) -> String {
+    let fitness = problem.show(champion.individual.fitness);
+    match champion.confirmed {
+        Some(confirmed) => format!("{fitness} ({} in rapier)", problem.show(confirmed)),
+        None => fitness,
+    }
+}
+
+/// The champions that each island has had so far.
+fn champions(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Champion<Gene>>>, StoreError> {
+    (0..config.islands).map(|island| Ok(RecordLog::read(&dir.champions(island))?.records)).collect()
 }
 
 fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
@@ -202,14 +223,8 @@ impl Podium {
     /// # Errors
     /// If they cannot be read.
     pub fn of(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
-        let mut best = Fitness::WORST;
-        for island in 0..config.islands {
-            let champions = RecordLog::<Champion<Gene>>::read(&dir.champions(island))?.records;
-            best = champions
-                .iter()
-                .map(|champion| champion.individual.fitness)
-                .fold(best, Fitness::max);
-        }
+        let champions = champions(dir, config)?;
+        let best = best(&champions).map_or(Fitness::WORST, |(_, best)| best.standing());
         Ok(Self { best })
     }
 
@@ -221,12 +236,12 @@ impl Podium {
         &mut self,
         dir: &RunDir,
         problem: &Locomotion,
-        champion: &Individual<Gene>,
+        champion: &Champion<Gene>,
     ) -> Result<(), Failure> {
-        if champion.fitness <= self.best {
+        if champion.standing() <= self.best {
             return Ok(());
         }
-        self.best = champion.fitness;
-        write_champion(dir, problem, champion)
+        self.best = champion.standing();
+        write_champion(dir, problem, &champion.individual)
     }
 }

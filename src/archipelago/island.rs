@@ -2,9 +2,9 @@
 
 use super::Archipelago;
 use super::migration::{self, Outbox};
-use crate::evolution::generation::{self, Effort, Moment};
+use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::{Gene, Individual, Problem, Statistics};
+use crate::evolution::{Fitness, Gene, Individual, Problem, Statistics};
 use serde::{Deserialize, Serialize};
 
 /// The whole state of an island between two generations.
@@ -38,6 +38,34 @@ pub struct Report {
     pub immigrants: u32,
 }
 
+/// A champion of an island, better than all before it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "G: Gene")]
+pub struct Champion<G> {
+    /// The generation in which it became the champion.
+    pub generation: u32,
+    /// The champion.
+    pub individual: Individual<G>,
+    /// Its fitness in the eyes of [`Problem::confirm`], if it has a say.
+    pub confirmed: Option<Fitness>,
+}
+
+impl<G: Gene> Champion<G> {
+    fn crown<P: Problem<Gene = G>>(
+        problem: &P,
+        individual: &Individual<G>,
+        generation: u32,
+    ) -> Self {
+        let confirmed = problem.confirm(&individual.genome).map(|evaluation| evaluation.fitness);
+        Self { generation, individual: individual.clone(), confirmed }
+    }
+
+    /// What it is worth among champions: its confirmed fitness where there is one.
+    pub fn standing(&self) -> Fitness {
+        self.confirmed.unwrap_or(self.individual.fitness)
+    }
+}
+
 /// What comes out of a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step<G> {
@@ -47,15 +75,17 @@ pub struct Step<G> {
     pub outbox: Option<Outbox<G>>,
     /// What the generation was like.
     pub report: Report,
-    /// Whether [`Island::champion`] is a new one.
-    pub new_champion: bool,
+    /// [`Island::champion`], if it is a new one.
+    pub champion: Option<Champion<G>>,
+    /// The genomes whose evaluation panicked.
+    pub panicked: Vec<Vec<G>>,
 }
 
 /// Generation 0 of an island: random genomes, evaluated.
 pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
-    let (population, effort) = generation::evaluate(problem, offspring, &[]);
+    let Brood { population, effort, panicked } = generation::evaluate(problem, offspring, &[]);
     let champion = best(&population).expect("a population has at least two individuals").clone();
     let report = Report {
         island,
@@ -64,8 +94,9 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
         effort,
         immigrants: 0,
     };
+    let crowned = Champion::crown(problem, &champion, 0);
     let island = Island { index: island, generation: 0, population, champion, effort };
-    Step { island, outbox: None, report, new_champion: true }
+    Step { island, outbox: None, report, champion: Some(crowned), panicked }
 }
 
 /// The next generation of an island. `immigrants` are the outboxes that
@@ -87,7 +118,8 @@ pub fn step<P: Problem>(
     let population = migration::immigrate::<P>(population, immigrants);
     let couples = generation::select(&population, strategy, moment);
     let offspring = generation::vary(problem, &population, &couples, strategy, moment);
-    let (offspring, effort) = generation::evaluate(problem, offspring, &population);
+    let Brood { population: offspring, effort, panicked } =
+        generation::evaluate(problem, offspring, &population);
     let next = generation::survive(&population, offspring, strategy);
     let outbox = migration
         .emigration(generation)
@@ -95,8 +127,8 @@ pub fn step<P: Problem>(
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
-    let better = contender.filter(|contender| contender.fitness > champion.fitness).cloned();
-    let new_champion = better.is_some();
+    let better = contender.filter(|contender| contender.fitness > champion.fitness);
+    let crowned = better.map(|better| Champion::crown(problem, better, generation));
     let report = Report {
         island: index,
         generation,
@@ -108,8 +140,41 @@ pub fn step<P: Problem>(
         index,
         generation,
         population: next,
-        champion: better.unwrap_or(champion),
+        champion: crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone()),
         effort: spent.and(effort),
     };
-    Step { island, outbox, report, new_champion }
+    Step { island, outbox, report, champion: crowned, panicked }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Migration;
+    use super::super::tests::toy::{Bit, Toy, archipelago};
+    use super::*;
+    use crate::evolution::{Fitness, Id};
+
+    #[test]
+    fn where_nothing_is_varied_nobody_is_evaluated_whether_elite_offspring_or_immigrant() {
+        let migration = Migration { interval: 1, migrants: 1, lag: 0 };
+        let mut archipelago = archipelago(2, 7, migration);
+        let rates = &mut archipelago.strategy.variation;
+        (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);
+        (rates.shrink_rate, rates.grow_rate) = (0.0, 0.0);
+        let first = genesis(&Toy, &archipelago, 0).island;
+        // Its score is none that an evaluation would give it.
+        let immigrant = Individual {
+            id: Id { island: 1, generation: 0, index: 0 },
+            parents: [None; 2],
+            genome: vec![Bit(1); 9],
+            fitness: Fitness::new(1e6),
+        };
+        let outbox = Outbox { island: 1, epoch: 0, migrants: vec![immigrant.clone()] };
+        let Step { report, island, .. } = step(first, &[outbox], &Toy, &archipelago);
+        assert_eq!(report.effort, Effort { reused: 4, ..Effort::default() });
+        assert_eq!(report.immigrants, 1);
+        assert_eq!(island.population[0], immigrant, "it is the elite");
+        let copies = island.population.iter().filter(|it| it.genome == immigrant.genome);
+        assert!(copies.clone().count() > 1, "it has offspring");
+        assert!(copies.into_iter().all(|copy| copy.fitness == immigrant.fitness));
+    }
 }

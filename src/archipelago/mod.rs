@@ -24,7 +24,7 @@ mod tests;
 
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
-pub use island::{Island, Report, Step};
+pub use island::{Champion, Island, Report, Step};
 pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
 pub use soundness::Misfit;

@@ -22,14 +22,16 @@ pub mod gene;
 pub mod genome;
 pub mod morphology;
 pub mod profile;
+pub mod shape;
 pub mod traits;
 pub mod waveform;
 
 pub use controller::{Controller, Motor};
 pub use expansion::Copy;
 pub use gene::{Gene, PARAMETERS, Parameter};
-pub use morphology::{Joint, JointKind, Link, Morphology, Shape};
+pub use morphology::{Joint, JointKind, Link, Morphology};
 pub use profile::Profile;
+pub use shape::Shape;
 pub use traits::Traits;
 pub use waveform::Waveform;
 
@@ -72,6 +74,29 @@ pub fn express(
     profile: Profile,
     links_max: usize,
 ) -> Result<Creature, ExpressionError> {
+    let (traits, tree) = develop(genome, profile, links_max)?;
+    let morphology = morphology::build(&traits, &tree, profile);
+    let controller = controller::build(&traits, &tree, &morphology, profile);
+    Ok(Creature { traits, tree, morphology, controller })
+}
+
+/// How many links the body has that [`express`] makes of a genome, found without building it.
+///
+/// # Errors
+/// As [`express`].
+pub fn count_links(
+    genome: &[Gene],
+    profile: Profile,
+    links_max: usize,
+) -> Result<usize, ExpressionError> {
+    develop(genome, profile, links_max).map(|(_, tree)| tree.len())
+}
+
+fn develop(
+    genome: &[Gene],
+    profile: Profile,
+    links_max: usize,
+) -> Result<(Vec<Traits>, Vec<Copy>), ExpressionError> {
     if genome.is_empty() {
         return Err(ExpressionError::Empty);
     }
@@ -88,7 +113,5 @@ pub fn express(
         }
         tree
     };
-    let morphology = morphology::build(&traits, &tree, profile);
-    let controller = controller::build(&traits, &tree, &morphology, profile);
-    Ok(Creature { traits, tree, morphology, controller })
+    Ok((traits, tree))
 }

@@ -2,6 +2,7 @@
 
 use super::expansion::Copy;
 use super::profile::Profile;
+pub use super::shape::Shape;
 use super::traits::{SolidKind, Traits};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3, vector};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -26,23 +27,6 @@ pub struct Link {
     pub joint: Option<Joint>,
 }
 
-/// The solid of a link, centred on the link's frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
-    /// A cylinder along the link's z axis.
-    Cylinder {
-        /// Radius in metres.
-        radius_m: f64,
-        /// Length in metres.
-        length_m: f64,
-    },
-    /// A box.
-    Cuboid {
-        /// Half its size along the link's x, y and z axes, in metres.
-        half_extents_m: Vector3<f64>,
-    },
-}
-
 /// A joint between a link and its parent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
@@ -63,78 +47,6 @@ pub enum JointKind {
     Fixed,
     /// It turns without limit about this unit vector of the joint's frame.
     Revolute(Vector3<f64>),
-}
-
-impl Shape {
-    /// Volume in cubic metres.
-    pub fn volume_m3(&self) -> f64 {
-        match self {
-            Shape::Cylinder { length_m, .. } => self.cross_section_m2() * length_m,
-            Shape::Cuboid { half_extents_m } => self.cross_section_m2() * 2.0 * half_extents_m.z,
-        }
-    }
-
-    /// Area of the cut across the link's z axis, in square metres.
-    pub fn cross_section_m2(&self) -> f64 {
-        match self {
-            Shape::Cylinder { radius_m, .. } => PI * (radius_m * radius_m),
-            Shape::Cuboid { half_extents_m } => 4.0 * half_extents_m.x * half_extents_m.y,
-        }
-    }
-
-    /// Moments of inertia about the link's axes, for a mass spread evenly over the solid, in kg·m².
-    pub fn inertia_kg_m2(&self, mass_kg: f64) -> Vector3<f64> {
-        match *self {
-            Shape::Cylinder { radius_m, length_m } => {
-                let about_z = radius_m * radius_m / 2.0;
-                let across = about_z / 2.0 + length_m * length_m / 12.0;
-                mass_kg * vector![across, across, about_z]
-            }
-            Shape::Cuboid { half_extents_m } => {
-                let square = half_extents_m.component_mul(&half_extents_m) / 3.0;
-                mass_kg * vector![square.y + square.z, square.x + square.z, square.x + square.y]
-            }
-        }
-    }
-
-    /// Half the size of the smallest box around the solid, along the link's axes, in metres.
-    pub fn half_extents_m(&self) -> Vector3<f64> {
-        match *self {
-            Shape::Cylinder { radius_m, length_m } => vector![radius_m, radius_m, length_m / 2.0],
-            Shape::Cuboid { half_extents_m } => half_extents_m,
-        }
-    }
-
-    /// How far the solid reaches from its centre along a world direction, given its rotation, in metres.
-    pub fn reach_m(&self, rotation: &UnitQuaternion<f64>, direction: &Vector3<f64>) -> f64 {
-        let local = rotation.inverse_transform_vector(direction);
-        let half = self.half_extents_m();
-        match self {
-            Shape::Cylinder { radius_m, .. } => {
-                radius_m * libm::hypot(local.x, local.y) + half.z * local.z.abs()
-            }
-            Shape::Cuboid { .. } => half.dot(&local.abs()),
-        }
-    }
-
-    /// Where a ray from the centre leaves the solid, in metres, where `direction` is measured in half
-    /// extents; for a direction of zero the end of the z axis.
-    fn surface_m(&self, direction: &Vector3<f64>) -> Vector3<f64> {
-        let longest = direction.amax();
-        let cube = if longest > 0.0 { direction / longest } else { Vector3::z() };
-        let unit = match self {
-            Shape::Cuboid { .. } => cube,
-            // Squeezes the square cross-section of the cube into the circle of the cylinder.
-            Shape::Cylinder { .. } => match libm::hypot(cube.x, cube.y) {
-                0.0 => cube,
-                round => {
-                    let square = cube.x.abs().max(cube.y.abs());
-                    vector![cube.x * square / round, cube.y * square / round, cube.z]
-                }
-            },
-        };
-        unit.component_mul(&self.half_extents_m())
-    }
 }
 
 impl Morphology {
@@ -230,38 +142,5 @@ fn attachment(traits: &Traits, sibling: u32, parent: &Shape, profile: Profile) -
             let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw);
             Isometry3::from_parts(Translation3::from(point), outwards * tilt * turn)
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_ray_from_the_centre_ends_on_the_solid() {
-        let cylinder = Shape::Cylinder { radius_m: 0.5, length_m: 4.0 };
-        let on_wall = cylinder.surface_m(&vector![1.0, 1.0, 0.0]);
-        assert!((libm::hypot(on_wall.x, on_wall.y) - 0.5).abs() < 1e-12);
-        assert_eq!(cylinder.surface_m(&vector![0.0, 0.0, -0.3]), vector![0.0, 0.0, -2.0]);
-        assert_eq!(cylinder.surface_m(&Vector3::zeros()), vector![0.0, 0.0, 2.0]);
-        let cuboid = Shape::Cuboid { half_extents_m: vector![1.0, 2.0, 3.0] };
-        assert_eq!(cuboid.surface_m(&vector![0.1, 0.2, -0.05]), vector![0.5, 2.0, -0.75]);
-    }
-
-    #[test]
-    fn a_cylinder_and_a_cuboid_resist_turning_as_solids_of_their_mass_do() {
-        let cylinder = Shape::Cylinder { radius_m: 2.0, length_m: 6.0 };
-        assert_eq!(cylinder.inertia_kg_m2(3.0), vector![12.0, 12.0, 6.0]);
-        let cuboid = Shape::Cuboid { half_extents_m: vector![3.0, 3.0, 6.0] };
-        assert_eq!(cuboid.inertia_kg_m2(2.0), vector![30.0, 30.0, 12.0]);
-    }
-
-    #[test]
-    fn volume_and_reach_are_those_of_the_solid() {
-        let cylinder = Shape::Cylinder { radius_m: 0.5, length_m: 2.0 };
-        assert!((cylinder.volume_m3() - PI / 2.0).abs() < 1e-12);
-        let lying = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), FRAC_PI_2);
-        assert!((cylinder.reach_m(&lying, &Vector3::z()) - 0.5).abs() < 1e-12);
-        assert!((cylinder.reach_m(&lying, &Vector3::x()) - 1.0).abs() < 1e-12);
     }
 }

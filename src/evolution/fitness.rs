@@ -67,9 +67,9 @@ impl PartialOrd for Fitness {
 pub enum Outcome {
     /// The trial ran to its end.
     Scored,
-    /// The genome describes more than may be built.
+    /// The genome describes more than may be built, or holds a number outside of its range.
     TooLarge,
-    /// A position or a speed stopped being a number.
+    /// A gene is no number, or a position or a speed stopped being one.
     NotFinite,
     /// A part moved faster than anything healthy does.
     TooFast,

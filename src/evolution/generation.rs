@@ -55,7 +55,8 @@ pub struct Offspring<G> {
 pub struct Effort {
     /// Evaluations that were really run.
     pub evaluations: u64,
-    /// Offspring whose fitness was known already, since an equal genome had been evaluated.
+    /// Offspring whose fitness was known already: copies of residents, elites and immigrants among them, and of
+    /// their own siblings. Elites and immigrants themselves are no offspring, and never evaluated.
     pub reused: u64,
     /// How the evaluations that were run ended, in the order of [`Outcome::ALL`].
     pub outcomes: [u64; Outcome::ALL.len()],
@@ -165,13 +166,24 @@ pub fn breed<P: Problem>(
     (genome, two_parents)
 }
 
+/// A brood that was scored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brood<G> {
+    /// Its individuals.
+    pub population: Population<G>,
+    /// What scoring them cost.
+    pub effort: Effort,
+    /// The genomes whose evaluation panicked, for whoever looks for the bug.
+    pub panicked: Vec<Vec<G>>,
+}
+
 /// Phase: scores the offspring. A genome that stands in `known` or twice in the brood is evaluated once
 /// at most: evaluation is a pure function of the genome.
 pub fn evaluate<P: Problem>(
     problem: &P,
     offspring: Vec<Offspring<P::Gene>>,
     known: &[Individual<P::Gene>],
-) -> (Population<P::Gene>, Effort) {
+) -> Brood<P::Gene> {
     fn key<G: super::Gene>(genome: &[G]) -> &[u8] {
         bytemuck::cast_slice(genome)
     }
@@ -186,6 +198,8 @@ pub fn evaluate<P: Problem>(
     let genomes: Vec<&[P::Gene]> = fresh.into_values().collect();
     let evaluations = problem.evaluate_batch(&genomes);
     let effort = effort(&evaluations, offspring.len());
+    let panicked = genomes.iter().zip(&evaluations).filter(|(_, e)| e.outcome == Outcome::Panicked);
+    let panicked = panicked.map(|(genome, _)| genome.to_vec()).collect();
     fitness.extend(genomes.iter().zip(&evaluations).map(|(g, e)| (key(g), e.fitness)));
 
     let scores: Vec<Fitness> = offspring.iter().map(|child| fitness[key(&child.genome)]).collect();
@@ -199,7 +213,7 @@ pub fn evaluate<P: Problem>(
             fitness,
         })
         .collect();
-    (population, effort)
+    Brood { population, effort, panicked }
 }
 
 fn effort(evaluations: &[Evaluation], offspring: usize) -> Effort {

@@ -3,7 +3,7 @@
 //! Read in this order: a [`Problem`] says what a genome is and how good it is ([`Fitness`]); an
 //! [`Individual`] is an evaluated genome with a parentage, a [`Population`] an ordered list of them;
 //! [`Selection`] picks parents, [`variation`] recombines and mutates, [`survival`] decides who stays, and
-//! [`generation`] strings these phases together.
+//! [`generation`] strings these phases together; [`sharing`] deals evaluations out to threads.
 //!
 //! Architecture invariant: pure. Nothing here knows a creature, a clock, a file or a process, and every
 //! stochastic function takes the stream it draws from.
@@ -14,8 +14,12 @@ pub mod individual;
 pub mod population;
 pub mod problem;
 pub mod selection;
+pub mod sharing;
 pub mod survival;
 pub mod variation;
+
+#[cfg(test)]
+mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
 pub use generation::Strategy;

@@ -1,10 +1,10 @@
 //! What is to be solved.
 
 use super::fitness::{Evaluation, Fitness};
+use super::sharing;
 use super::variation::{self, Variation};
 use crate::rng::Stream;
 use bytemuck::Pod;
-use rayon::prelude::*;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
@@ -40,6 +40,12 @@ pub trait Problem: Sync {
     /// Scores a genome.
     fn evaluate(&self, genome: &[Self::Gene]) -> Evaluation;
 
+    /// Scores a champion once more by a slower and more trusted judge than [`Problem::evaluate`], where there is one. It
+    /// decides nothing of what evolves, but which champion a run keeps.
+    fn confirm(&self, _genome: &[Self::Gene]) -> Option<Evaluation> {
+        None
+    }
+
     /// Recombines two genomes.
     fn crossover(
         &self,
@@ -62,9 +68,17 @@ pub trait Problem: Sync {
         });
     }
 
-    /// Scores many genomes on the threads of the current rayon pool; results are in the order given.
+    /// Estimates what evaluating a genome costs, in any unit. It decides in which order a batch is begun, and so how
+    /// long that takes, but no result.
+    fn cost(&self, _genome: &[Self::Gene]) -> u64 {
+        1
+    }
+
+    /// Scores many genomes on the threads of the current rayon pool, the dearest first; results are in the order
+    /// given.
     fn evaluate_batch(&self, genomes: &[&[Self::Gene]]) -> Vec<Evaluation> {
-        genomes.par_iter().with_max_len(1).map(|genome| self.evaluate(genome)).collect()
+        let costs: Vec<u64> = genomes.iter().map(|genome| self.cost(genome)).collect();
+        sharing::dearest_first(&costs, |index| self.evaluate(genomes[index]))
     }
 
     /// The unit of the fitness, for labels.

@@ -4,7 +4,7 @@
 //! included: from 12 genes on they can collide, so tell links apart by their place. The other profiles add keys
 //! and take none away.
 
-use crate::creature::{Copy, Creature, Joint, JointKind, Motor, Profile, Shape, Traits, Waveform};
+use crate::creature::{Copy, Creature, Joint, JointKind, Motor, Profile, Traits, Waveform};
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -63,7 +63,7 @@ pub struct MoreOfLink {
     pub gene: usize,
     /// Its parent's place among the links, from 0.
     pub parent_index: Option<usize>,
-    /// `cylinder` or `box`.
+    /// `cylinder` or `box`, as [`Shape::name`](crate::creature::Shape::name) says.
     pub shape: &'static str,
 }
 
@@ -160,10 +160,7 @@ fn link(creature: &Creature, profile: Profile, index: usize) -> LinkInspection {
         more: in_full(profile).then_some(MoreOfLink {
             gene: copy.gene,
             parent_index: copy.parent,
-            shape: match link.shape {
-                Shape::Cylinder { .. } => "cylinder",
-                Shape::Cuboid { .. } => "box",
-            },
+            shape: link.shape.name(),
         }),
         joint: link.joint.as_ref().map(|joint| self::joint(joint, copy, traits, profile)),
         motor: motor.map(|motor| self::motor(motor, creature.controller.period_s, profile)),

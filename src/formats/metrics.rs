@@ -23,8 +23,20 @@ pub struct Row {
     pub evaluations: u64,
     /// Offspring whose fitness was known already.
     pub reused: u64,
-    /// Evaluations that did not end in a score.
+    /// Evaluations that did not end in a score, in all; the columns after this one say how they ended.
     pub failures: u64,
+    /// Genomes that describe more than may be built.
+    pub too_large: u64,
+    /// Trials in which a position or a speed stopped being a number.
+    pub not_finite: u64,
+    /// Trials in which a part moved faster than anything healthy does.
+    pub too_fast: u64,
+    /// Trials in which the body left the ground by more than a jump explains.
+    pub launched: u64,
+    /// Trials in which the body gained more momentum than gravity and friction can give.
+    pub unphysical: u64,
+    /// Evaluations that panicked.
+    pub panicked: u64,
     /// Immigrants that arrived.
     pub immigrants: u32,
     /// How long the generation took, waiting included, in seconds. The only column that the seed does not fix.
@@ -35,6 +47,7 @@ impl Row {
     /// The row of a report.
     pub fn new(report: &Report, seconds: f64) -> Self {
         let Report { island, generation, statistics, effort, immigrants } = *report;
+        let [_, too_large, not_finite, too_fast, launched, unphysical, panicked] = effort.outcomes;
         Self {
             island,
             generation,
@@ -45,6 +58,12 @@ impl Row {
             evaluations: effort.evaluations,
             reused: effort.reused,
             failures: effort.failures(),
+            too_large,
+            not_finite,
+            too_fast,
+            launched,
+            unphysical,
+            panicked,
             immigrants,
             seconds,
         }
@@ -73,6 +92,34 @@ pub fn read(input: impl Read) -> std::io::Result<Vec<Row>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evolution::generation::Effort;
+    use crate::evolution::{Fitness, Outcome, Spread, Statistics};
+
+    #[test]
+    fn each_way_to_fail_has_a_column_of_its_name_in_the_order_of_all() {
+        let worst = Fitness::WORST;
+        let (mean, median, spread) = (worst, worst, Spread::default());
+        let statistics = Statistics { best: worst, mean, median, diversity: 0.0, spread };
+        // As many of each as its number says.
+        let outcomes = std::array::from_fn(|outcome| outcome as u64);
+        let effort = Effort { evaluations: outcomes.iter().sum(), reused: 0, outcomes };
+        let report = Report { island: 0, generation: 0, statistics, effort, immigrants: 0 };
+        let mut bytes = Vec::new();
+        write(&[Row::new(&report, 0.0)], true, &mut bytes).expect("memory takes everything");
+        let mut table = csv::Reader::from_reader(bytes.as_slice());
+        let names = table.headers().expect("it has a header").clone();
+        let cells = table.records().next().expect("it has a row").expect("it is whole");
+        let columns: Vec<_> = names.iter().zip(&cells).collect();
+        let expected = Outcome::ALL.iter().skip(1).map(|outcome| {
+            let name = serde_json::to_string(outcome).expect("an outcome is a word");
+            (name.trim_matches('"').replace('-', "_"), (*outcome as u64).to_string())
+        });
+        let failures = names.iter().position(|name| name == "failures").expect("it is there");
+        for (column, (name, count)) in columns[failures + 1..].iter().zip(expected) {
+            assert_eq!(*column, (name.as_str(), count.as_str()));
+        }
+        assert_eq!(columns[failures].1, outcomes.iter().sum::<u64>().to_string());
+    }
 
     #[test]
     fn rows_come_back_as_they_were_and_what_has_no_score_is_empty() {
@@ -86,13 +133,22 @@ mod tests {
             evaluations: 3,
             reused: 1,
             failures: 2,
+            too_large: 0,
+            not_finite: 0,
+            too_fast: 1,
+            launched: 1,
+            unphysical: 0,
+            panicked: 0,
             immigrants: 0,
             seconds: 0.25,
         };
         let mut bytes = Vec::new();
         write(&[row, row], true, &mut bytes).expect("memory takes everything");
         let text = String::from_utf8(bytes.clone()).expect("it is text");
-        assert!(text.contains("1,2,0.30000000000000004,,,0.5,3,1,2,0,0.25\n"), "{text}");
+        assert!(
+            text.contains("1,2,0.30000000000000004,,,0.5,3,1,2,0,0,1,1,0,0,0,0.25\n"),
+            "{text}"
+        );
         assert_eq!(read(bytes.as_slice()).expect("it is ours"), [row, row]);
     }
 }

@@ -121,6 +121,10 @@ impl Display for Geometry<'_> {
             Shape::Cuboid { half_extents_m } => {
                 write!(f, r#"<box size="{}"/>"#, Triple(&(half_extents_m * 2.0)))
             }
+            Shape::Sphere { radius_m } => write!(f, r#"<sphere radius="{radius_m}"/>"#),
+            Shape::Capsule { radius_m, length_m } => {
+                write!(f, r#"<capsule radius="{radius_m}" length="{length_m}"/>"#)
+            }
         }
     }
 }

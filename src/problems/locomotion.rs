@@ -1,5 +1,6 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
+use super::progress;
 use crate::choice;
 use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile};
@@ -14,10 +15,11 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Task {
-    /// To get away: the horizontal displacement of its centre of mass after settling.
+    /// To get away: the horizontal displacement of its centre of mass after settling, if it keeps on:
+    /// [`progress::away_m`].
     #[default]
     Walk,
-    /// To keep moving: the length of that path, the lectures' later fitness.
+    /// To keep moving: the length of that path, the lectures' later fitness: [`progress::travelled_m`].
     Travel,
     /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
     /// It counts the fall, and is here for comparison.
@@ -35,8 +37,8 @@ impl Task {
                 steps_per_s: 240,
                 gravity_m_s2: 9.81,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
-                start: Start::LowestAt(0.1),
-                settle_s: 1.0,
+                start: Start::LeaningAt(0.1),
+                settle_s: 0.5,
                 scored_s: 8.0,
                 keeps_ledger: true,
             },
@@ -55,8 +57,8 @@ impl Task {
     /// What a measurement is worth, in metres.
     pub fn score(self, measured: &Measurement) -> f64 {
         match self {
-            Task::Walk => (measured.centre_last_m - measured.centre_first_m).xy().norm(),
-            Task::Travel => measured.path_m,
+            Task::Walk => progress::away_m(&measured.track_m),
+            Task::Travel => progress::travelled_m(&measured.track_m, measured.extent_m),
             Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
         }
     }
@@ -111,6 +113,11 @@ impl Locomotion {
         engine: Engine::Rapier,
     };
 
+    /// The same problem under the engine of record, if this is another one.
+    pub fn judge(&self) -> Option<Self> {
+        (self.engine != Engine::Rapier).then_some(Self { engine: Engine::Rapier, ..*self })
+    }
+
     /// Expresses a genome.
     ///
     /// # Errors
@@ -130,6 +137,13 @@ impl Locomotion {
     }
 
     fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+        let mut values = genome.iter().flat_map(|gene| gene.0);
+        if !values.all(f64::is_finite) {
+            return Err(Outcome::NotFinite);
+        }
+        if !genome.iter().all(evolution::Gene::is_valid) {
+            return Err(Outcome::TooLarge);
+        }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
         simulation::simulate(&creature, &self.task.trial(), self.engine)
     }
@@ -186,6 +200,18 @@ impl Problem for Locomotion {
         self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
     }
 
+    fn confirm(&self, genome: &[Gene]) -> Option<Evaluation> {
+        self.judge().map(|judge| judge.evaluate(genome))
+    }
+
+    /// Links times steps, of a trial that runs to its end; what cannot be expressed costs nothing.
+    fn cost(&self, genome: &[Gene]) -> u64 {
+        // Whatever evaluating a genome contains must not come out here.
+        let links = catch_unwind(|| creature::count_links(genome, self.profile, self.links_max));
+        let links = links.ok().and_then(Result::ok).unwrap_or(0);
+        links as u64 * u64::from(self.task.trial().steps())
+    }
+
     fn unit(&self) -> &'static str {
         "m"
     }
@@ -225,6 +251,30 @@ mod tests {
             changed += gene.0.iter().filter(|&&value| value != 0.5).count() as f64 / 17_000.0;
         }
         assert!((changed - 0.2_f64).abs() < 0.02, "{changed}");
+    }
+
+    #[test]
+    fn a_genome_costs_its_links_times_the_steps() {
+        for index in 0..39 {
+            let (profile, task) = (Profile::ALL[index % 3], Task::ALL[index / 3 % 3]);
+            let genes = 1 + index / 3;
+            let problem = Locomotion { profile, task, genes, links_max: 7, ..Locomotion::DEFAULT };
+            let genome = problem.random_genome(&mut stream(index as u32));
+            let links = problem.express(&genome).map_or(0, |it| it.morphology.links.len());
+            let steps = task.trial().steps() as usize;
+            assert_eq!(problem.cost(&genome), (links * steps) as u64);
+        }
+    }
+
+    #[test]
+    fn a_genome_that_is_refused_costs_nothing() {
+        let mut gene = Gene([0.5; PARAMETER_COUNT]);
+        // Its link is built twice on the one before it.
+        (gene.0[3], gene.0[6]) = (0.4, VALUE_MAX);
+        let coursework = Locomotion { profile: Profile::Coursework, ..problem() };
+        let steps = u64::from(Task::Walk.trial().steps());
+        assert_eq!([8, 10].map(|genes| coursework.cost(&vec![gene; genes])), [255 * steps, 0]);
+        assert_eq!(problem().cost(&[]), 0);
     }
 
     #[test]

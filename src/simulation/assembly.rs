@@ -2,9 +2,9 @@
 //!
 //! Links that fixed joints hold together are one part: there is nothing to solve between them.
 
-use super::trial::{Start, Trial};
+use super::trial::{LEAN_RAD, Start, Trial};
 use crate::creature::{Creature, Joint, JointKind, Link, Shape};
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A body put together, at the place where its trial begins.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,7 +68,10 @@ pub struct Place {
 impl Assembly {
     /// Puts a creature together for a trial.
     pub fn new(creature: &Creature, trial: &Trial) -> Self {
-        let morphology = &creature.morphology;
+        let mut morphology = creature.morphology.clone();
+        if let Start::LeaningAt(_) = trial.start {
+            morphology.root_rotation = lean() * morphology.root_rotation;
+        }
         let mut assembly = Self { parts: Vec::new(), places: Vec::new() };
         for (index, (link, rest)) in
             morphology.links.iter().zip(morphology.rest_poses()).enumerate()
@@ -82,7 +85,9 @@ impl Assembly {
         assembly.centre_root();
         let height_m = match trial.start {
             Start::RootAt(height_m) => height_m,
-            Start::LowestAt(height_m) => height_m - morphology.lowest_m(),
+            Start::LowestAt(height_m) | Start::LeaningAt(height_m) => {
+                height_m - morphology.lowest_m()
+            }
         };
         for part in &mut assembly.parts {
             part.world_from_part = Translation3::new(0.0, 0.0, height_m) * part.world_from_part;
@@ -146,6 +151,12 @@ impl Assembly {
             hinge.parent_from_hinge = new_from_old * hinge.parent_from_hinge;
         }
     }
+}
+
+/// A lean that is neither along a body's axes nor halfway between them.
+fn lean() -> UnitQuaternion<f64> {
+    let axis = Unit::new_normalize(Vector3::new(1.0, 0.6, 0.0));
+    UnitQuaternion::from_axis_angle(&axis, LEAN_RAD)
 }
 
 impl Part {

@@ -1,15 +1,19 @@
 //! Bodies in motion: a trial under an engine.
 //!
 //! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it. An [`Engine`] moves it through
-//! the [`world`], today [`Engine::Rapier`]. [`actuator`] plays its motors,
-//! [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it. [`simulate`] runs it and
-//! returns what was measured; what of that is worth how much is for a task to say.
+//! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors, [`settling`] brings
+//! it to rest before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it.
+//! [`simulate`] runs it and returns what was measured; what of that is worth how much is for a task to say.
 
 pub mod actuator;
 pub mod assembly;
 pub mod engine;
+mod featherstone;
 mod rapier;
+pub mod settling;
 pub mod stability;
+#[cfg(test)]
+mod tests;
 pub mod trajectory;
 pub mod trial;
 pub mod world;
@@ -22,13 +26,15 @@ use crate::creature::Creature;
 use crate::evolution::Outcome;
 use actuator::Actuators;
 use assembly::Assembly;
+use featherstone::FeatherstoneWorld;
 use nalgebra::{Vector2, Vector3};
 use rapier::RapierWorld;
+use settling::Calm;
 use stability::{Guard, Ledger};
 use world::World;
 
 /// What was measured in a trial that ran to its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Measurement {
     /// The root's position after the very first step, in metres.
     pub root_first_m: Vector3<f64>,
@@ -41,6 +47,11 @@ pub struct Measurement {
     /// The length of the horizontal path of the centre of mass while scoring, in metres, from positions
     /// 0.1 s apart: trembling in place is not travelling.
     pub path_m: f64,
+    /// Where the centre of mass was above the ground, in metres: when scoring began, and every
+    /// [`TRACK_SAMPLE_S`] since.
+    pub track_m: Vec<Vector2<f64>>,
+    /// How far the body reaches from its root at rest, in metres.
+    pub extent_m: f64,
 }
 
 /// Tries a creature.
@@ -71,7 +82,7 @@ pub fn film(
 
 /// Who watches a trial.
 trait Observer {
-    /// Sees the world after a step; step 0 is the beginning.
+    /// Sees the world after a step; step 0 is a beginning, and what was seen before is not to be kept.
     fn observe(&mut self, step: u32, world: &impl World, assembly: &Assembly);
 }
 
@@ -87,6 +98,9 @@ struct Camera<'a> {
 
 impl Observer for Camera<'_> {
     fn observe(&mut self, step: u32, world: &impl World, assembly: &Assembly) {
+        if step == 0 {
+            self.trajectory.clear();
+        }
         if step.is_multiple_of(self.every) {
             self.trajectory.push(self.trial.time_s(step), world::poses(world, assembly));
         }
@@ -105,11 +119,15 @@ fn run(
             Attempt::new(RapierWorld::new(&assembly, trial), &assembly, creature, observer)
                 .run(creature, trial)
         }
+        Engine::Featherstone => {
+            Attempt::new(FeatherstoneWorld::new(&assembly, trial), &assembly, creature, observer)
+                .run(creature, trial)
+        }
     }
 }
 
-/// Positions that the path is measured from are this far apart, in seconds.
-const PATH_SAMPLE_S: f64 = 0.1;
+/// Positions on the track of the centre of mass are this far apart, in seconds.
+pub const TRACK_SAMPLE_S: f64 = 0.1;
 
 /// A trial under way.
 struct Attempt<'a, W, O> {
@@ -117,26 +135,24 @@ struct Attempt<'a, W, O> {
     assembly: &'a Assembly,
     guard: Guard,
     step: u32,
-    root_first_m: Vector3<f64>,
+    root_first_m: Option<Vector3<f64>>,
     observer: &'a mut O,
 }
 
 impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
     fn new(world: W, assembly: &'a Assembly, creature: &Creature, observer: &'a mut O) -> Self {
         let guard = Guard::new(assembly, creature);
-        let root_first_m = world::root_position(&world, assembly);
         observer.observe(0, &world, assembly);
-        Self { world, assembly, guard, step: 0, root_first_m, observer }
+        Self { world, assembly, guard, step: 0, root_first_m: None, observer }
     }
 
     fn run(mut self, creature: &Creature, trial: &Trial) -> Result<Measurement, Outcome> {
-        for _ in 0..trial.steps_in_exactly(trial.settle_s) {
-            self.advance()?;
-        }
+        self.settle(trial)?;
         let centre_first_m = self.centre_of_mass();
-        let path_steps = trial.steps_in(PATH_SAMPLE_S);
-        let mut path = Path::from(centre_first_m);
-        let mut ledger = Ledger::new(trial, path_steps, centre_first_m);
+        let sample_steps = trial.steps_in(TRACK_SAMPLE_S);
+        let mut track_m = Vec::with_capacity(trial.samples() + 1);
+        track_m.push(centre_first_m.xy());
+        let mut ledger = Ledger::new(trial, sample_steps, centre_first_m);
         let control_steps = trial.steps_in(creature.controller.period_s);
         let mut actuators = Actuators::new(&creature.controller, self.assembly);
         for scored in 0..trial.steps_in_exactly(trial.scored_s) {
@@ -145,9 +161,9 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
                 self.check()?;
                 actuators.update(&mut self.world);
             }
-            if (scored + 1).is_multiple_of(path_steps) {
+            if (scored + 1).is_multiple_of(sample_steps) {
                 let centre_m = self.centre_of_mass();
-                path.extend_to(centre_m);
+                track_m.push(centre_m.xy());
                 if trial.keeps_ledger {
                     ledger.enter(centre_m)?;
                 }
@@ -155,19 +171,44 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
         }
         self.check()?;
         Ok(Measurement {
-            root_first_m: self.root_first_m,
+            root_first_m: self.root_first_m.unwrap_or_default(),
             root_last_m: world::root_position(&self.world, self.assembly),
             centre_first_m,
             centre_last_m: self.centre_of_mass(),
-            path_m: path.length_m,
+            path_m: track_m.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum(),
+            track_m,
+            extent_m: creature.morphology.extent_m(),
         })
+    }
+
+    /// Lets the body come to rest. A film shows the last round.
+    fn settle(&mut self, trial: &Trial) -> Result<(), Outcome> {
+        let steps = trial.steps_in_exactly(trial.settle_s);
+        if steps == 0 {
+            return Ok(());
+        }
+        for _ in 0..settling::ROUNDS_MAX {
+            self.step = 0;
+            self.observer.observe(0, &self.world, self.assembly);
+            let mut calm = Calm::new(trial);
+            for _ in 0..steps {
+                self.advance()?;
+                calm.observe(&self.world, self.assembly.parts.len());
+            }
+            self.check()?;
+            if calm.is_rest() {
+                break;
+            }
+        }
+        self.world.halt();
+        Ok(())
     }
 
     fn advance(&mut self) -> Result<(), Outcome> {
         self.world.step()?;
         self.step += 1;
-        if self.step == 1 {
-            self.root_first_m = world::root_position(&self.world, self.assembly);
+        if self.root_first_m.is_none() {
+            self.root_first_m = Some(world::root_position(&self.world, self.assembly));
         }
         self.observer.observe(self.step, &self.world, self.assembly);
         Ok(())
@@ -179,24 +220,5 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
 
     fn centre_of_mass(&self) -> Vector3<f64> {
         world::centre_of_mass(&self.world, self.assembly)
-    }
-}
-
-/// A horizontal path, measured as it is walked.
-struct Path {
-    at: Vector2<f64>,
-    length_m: f64,
-}
-
-impl From<Vector3<f64>> for Path {
-    fn from(start: Vector3<f64>) -> Self {
-        Self { at: start.xy(), length_m: 0.0 }
-    }
-}
-
-impl Path {
-    fn extend_to(&mut self, position: Vector3<f64>) {
-        self.length_m += (position.xy() - self.at).norm();
-        self.at = position.xy();
     }
 }

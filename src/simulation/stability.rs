@@ -62,6 +62,10 @@ const EXCESS_MAX_M_S: f64 = 0.1;
 /// its centre of mass obeys |a_h| ≤ µ (a_z + g), whatever its motors do. An average over time keeps this true.
 /// The change of the mean velocity from one period of length T to the next is such an average, so it needs
 /// nothing but the positions that the score is made of: |Δv_h| ≤ µ (Δv_z + g T). What is above is the solver's.
+///
+/// No ledger of energy is kept. Native motors may do a kilowatt each (126 N·m at 8 rad/s), so that the bound would be
+/// some hundred joules a tenth of a second, more than a solver's error ever gives a body unless this ledger or the
+/// guard refuses it; a body that is only pushed up out of the ground comes down where it was.
 #[derive(Debug, Clone)]
 pub struct Ledger {
     period_s: f64,
@@ -94,6 +98,11 @@ impl Ledger {
         }
         (self.position_m, self.velocity_m_s) = (position_m, Some(velocity_m_s));
         if self.excess_m_s > EXCESS_MAX_M_S { Err(Outcome::Unphysical) } else { Ok(()) }
+    }
+
+    /// Speed that the body has gained out of nothing so far, in m/s.
+    pub fn excess_m_s(&self) -> f64 {
+        self.excess_m_s
     }
 }
 

@@ -34,6 +34,12 @@ impl Trajectory {
         Self { shapes, times_s: Vec::new(), poses: Vec::new(), scoring_from_s }
     }
 
+    /// Forgets every frame.
+    pub fn clear(&mut self) {
+        self.times_s.clear();
+        self.poses.clear();
+    }
+
     /// Adds a frame.
     pub fn push(&mut self, time_s: f64, poses: Vec<Pose>) {
         self.times_s.push(time_s);

@@ -1,5 +1,8 @@
 //! How a body is tried, and the constants of the world that it is tried in.
 
+use super::TRACK_SAMPLE_S;
+use std::f64::consts::TAU;
+
 /// How a body is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trial {
@@ -9,7 +12,8 @@ pub struct Trial {
     pub gravity_m_s2: f64,
     /// Where the body begins.
     pub start: Start,
-    /// Time to come to rest before scoring, in seconds; motors hold still meanwhile.
+    /// A round of settling before scoring, in seconds; motors hold still meanwhile. There are as many rounds as it
+    /// takes to come to rest, see [`settling`](super::settling), and none if this is 0.
     pub settle_s: f64,
     /// Time that is scored, in seconds.
     pub scored_s: f64,
@@ -24,7 +28,13 @@ pub enum Start {
     RootAt(f64),
     /// With its lowest point this high, in metres.
     LowestAt(f64),
+    /// With its lowest point this high, in metres, and all of it leaning by [`LEAN_RAD`].
+    LeaningAt(f64),
 }
+
+/// How far a body leans that begins so, in radians: 5°. What stands on feet rights itself; what was only balanced
+/// (a tower on its point, a wheel with its weight on top) comes down while it settles, not while it is scored.
+pub const LEAN_RAD: f64 = TAU / 72.0;
 
 /// Friction of the ground and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
@@ -35,7 +45,7 @@ impl Trial {
         f64::from(step) / f64::from(self.steps_per_s)
     }
 
-    /// All steps of a trial that runs to its end.
+    /// The steps of a trial that runs to its end, with one round of settling: as many as a film shows.
     pub fn steps(&self) -> u32 {
         self.steps_in_exactly(self.settle_s) + self.steps_in_exactly(self.scored_s)
     }
@@ -43,6 +53,11 @@ impl Trial {
     /// The nearest number of steps to a period, at least 1.
     pub(super) fn steps_in(&self, period_s: f64) -> u32 {
         self.steps_in_exactly(period_s).max(1)
+    }
+
+    /// Positions on the track after the first.
+    pub(super) fn samples(&self) -> usize {
+        (self.steps_in_exactly(self.scored_s) / self.steps_in(TRACK_SAMPLE_S)) as usize
     }
 
     pub(super) fn steps_in_exactly(&self, period_s: f64) -> u32 {

@@ -16,15 +16,23 @@ pub trait World {
     /// Sets the speed that the motor of a part's hinge aims at, in rad/s.
     fn drive(&mut self, part: usize, target_rad_s: f64);
 
+    /// Takes all speed from the body: it stands still where it is.
+    fn halt(&mut self);
+
     /// Where a part is.
     fn world_from_part(&self, part: usize) -> Isometry3<f64>;
 
     /// The velocity of a part's centre of mass, in m/s.
     fn velocity_m_s(&self, part: usize) -> Vector3<f64>;
+
+    /// Moves the whole body from rest as if it were rigid: its root's centre of mass by a velocity in m/s, and
+    /// itself about that point by one in rad/s. No trial does this, but what physics says of it can be tested.
+    #[cfg(test)]
+    fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>);
 }
 
 /// The centre of mass of the whole body, in metres.
-pub fn centre_of_mass(world: &impl World, assembly: &Assembly) -> Vector3<f64> {
+pub fn centre_of_mass(world: &(impl World + ?Sized), assembly: &Assembly) -> Vector3<f64> {
     let parts = assembly.parts.iter().enumerate();
     let (moment, mass_kg) =
         parts.fold((Vector3::zeros(), 0.0), |(moment, mass_kg), (index, part)| {
@@ -35,12 +43,12 @@ pub fn centre_of_mass(world: &impl World, assembly: &Assembly) -> Vector3<f64> {
 }
 
 /// The position of the root link, in metres.
-pub fn root_position(world: &impl World, assembly: &Assembly) -> Vector3<f64> {
+pub fn root_position(world: &(impl World + ?Sized), assembly: &Assembly) -> Vector3<f64> {
     link_pose(world, assembly, 0).translation.vector
 }
 
 /// The pose of every link.
-pub fn poses(world: &impl World, assembly: &Assembly) -> Vec<Pose> {
+pub fn poses(world: &(impl World + ?Sized), assembly: &Assembly) -> Vec<Pose> {
     let pose = |link| {
         let pose = link_pose(world, assembly, link);
         let rotation = pose.rotation.cast::<f32>();
@@ -52,7 +60,7 @@ pub fn poses(world: &impl World, assembly: &Assembly) -> Vec<Pose> {
     (0..assembly.places.len()).map(pose).collect()
 }
 
-fn link_pose(world: &impl World, assembly: &Assembly, link: usize) -> Isometry3<f64> {
+fn link_pose(world: &(impl World + ?Sized), assembly: &Assembly, link: usize) -> Isometry3<f64> {
     let place = &assembly.places[link];
     world.world_from_part(place.part) * place.part_from_link
 }

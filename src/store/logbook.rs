@@ -6,20 +6,10 @@
 
 use super::checkpoint::Checkpoint;
 use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
-use crate::archipelago::{Archipelago, Births, Island, Outbox, Report, Step};
-use crate::evolution::{Gene, Individual};
+use crate::archipelago::{Archipelago, Births, Champion, Island, Outbox, Report, Step};
+use crate::evolution::Gene;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-
-/// A champion of an island, better than all before it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(bound = "G: Gene")]
-pub struct Champion<G> {
-    /// The generation in which it became the champion.
-    pub generation: u32,
-    /// The champion.
-    pub individual: Individual<G>,
-}
 
 /// A generation of an island.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -82,11 +72,7 @@ impl<G: Gene> Logbook<G> {
     /// # Errors
     /// If the disk is full or gone, or an epoch that is evolved again comes out otherwise.
     pub fn record(&mut self, step: &Step<G>, seconds: f64) -> Result<(), StoreError> {
-        let generation = step.report.generation;
-        if step.new_champion {
-            let individual = step.island.champion.clone();
-            self.champions.append(&Champion { generation, individual })?;
-        }
+        step.champion.iter().try_for_each(|champion| self.champions.append(champion))?;
         self.lineages.append(&Births::of(&step.island))?;
         self.reports.append(&Entry { report: step.report, seconds })?;
         step.outbox.iter().try_for_each(|outbox| self.journal.append(outbox))

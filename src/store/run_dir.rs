@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
 /// summary.json                            digest, best fitness, evaluations, throughput
 /// recording.rrd                           the run as a film
+/// panic-<i>.<generation>.<k>.csv          a genome whose evaluation panicked on island i: a bug
 /// champions/island-<i>.log                every champion of an island
 /// reports/island-<i>.log                  what every generation of an island was like
 /// lineages/island-<i>.log                 who was born of whom on an island, generation by generation
@@ -137,6 +138,11 @@ impl RunDir {
     /// The film.
     pub fn recording(&self) -> PathBuf {
         self.0.join("recording.rrd")
+    }
+
+    /// A genome whose evaluation panicked, the `count`th of its island and generation.
+    pub fn panic(&self, island: u32, generation: u32, count: usize) -> PathBuf {
+        self.0.join(format!("panic-{island}.{generation}.{count}.csv"))
     }
 
     /// An island's champions.

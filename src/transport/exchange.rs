@@ -5,8 +5,8 @@ use super::ports::{self, Inlet, Outlet, RequestInlet, RequestOutlet};
 use super::services::{self, Ipc, Node, Plan, WITH_SUCCESSOR};
 use super::wire::{BatchHeader, ReportHeader, ResendRequest};
 use super::{Domain, TransportError};
-use crate::archipelago::{Archipelago, Outbox, Report};
-use crate::evolution::{Gene, Individual};
+use crate::archipelago::{Archipelago, Champion, Outbox, Report};
+use crate::evolution::Gene;
 use iceoryx2::port::listener::{Listener, ListenerWaitError};
 use iceoryx2::port::notifier::Notifier;
 use iceoryx2::port::update_connections::UpdateConnections;
@@ -176,11 +176,11 @@ impl<G: Gene> Exchange<G> {
         &self,
         report: &Report,
         seconds: f64,
-        champion: Option<&Individual<G>>,
+        champion: Option<&Champion<G>>,
     ) -> Result<(), TransportError> {
         let header = self.limits.report(report, seconds, champion);
         let header = header.map_err(TransportError::unsendable)?;
-        let genome = champion.map_or(&[][..], |champion| &champion.genome);
+        let genome = champion.map_or(&[][..], |champion| &champion.individual.genome);
         ports::send(&self.reports, header, genome.len(), genome.iter())?;
         Ok(())
     }

@@ -5,7 +5,7 @@
 
 use super::wire::{BatchHeader, IndividualHeader, NOBODY, ReportHeader, ResendRequest, WireGene};
 use crate::archipelago::migration::MIGRANTS_MAX;
-use crate::archipelago::{Archipelago, Outbox, Report};
+use crate::archipelago::{Archipelago, Champion, Outbox, Report};
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Gene, Id, Individual, Spread, Statistics};
 
@@ -43,7 +43,7 @@ pub struct Sighting<G> {
     /// Wall seconds that it took.
     pub seconds: f64,
     /// The island's champion, if it is a new one.
-    pub champion: Option<Individual<G>>,
+    pub champion: Option<Champion<G>>,
 }
 
 /// What everything that travels in one run must respect.
@@ -110,10 +110,12 @@ impl Limits {
         &self,
         report: &Report,
         seconds: f64,
-        champion: Option<&Individual<G>>,
+        champion: Option<&Champion<G>>,
     ) -> Result<ReportHeader, Rejection> {
         let Report { island, generation, statistics, effort, immigrants } = *report;
-        let header = champion.map(|champion| self.individual_header(champion)).transpose()?;
+        let header = champion.map(|champion| self.individual_header(&champion.individual));
+        let header = header.transpose()?;
+        let confirmed = champion.and_then(|champion| champion.confirmed);
         Ok(ReportHeader {
             run_id: self.run_id,
             island,
@@ -121,6 +123,7 @@ impl Limits {
             immigrants,
             has_champion: u32::from(champion.is_some()),
             champion: header.unwrap_or_default(),
+            confirmed: confirmed.map_or(f64::NAN, Fitness::get),
             best: statistics.best.get(),
             mean: statistics.mean.get(),
             median: statistics.median.get(),
@@ -147,7 +150,11 @@ impl Limits {
         let mut rest = genes;
         let champion = match header.has_champion {
             0 => None,
-            1 => Some(self.individual(&header.champion, &mut rest)?),
+            1 => Some(Champion {
+                generation: header.generation,
+                individual: self.individual(&header.champion, &mut rest)?,
+                confirmed: (!header.confirmed.is_nan()).then(|| Fitness::new(header.confirmed)),
+            }),
             _ => return Err(Rejection::Count),
         };
         require(rest.is_empty(), Rejection::Length)?;

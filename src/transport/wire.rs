@@ -63,7 +63,7 @@ pub struct BatchHeader {
 /// The header of a report; the payload is the genome of a new champion, or nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.ReportHeader.v1")]
+#[type_name("islands.ReportHeader.v2")]
 pub struct ReportHeader {
     /// The run that it belongs to.
     pub run_id: u64,
@@ -77,6 +77,8 @@ pub struct ReportHeader {
     pub has_champion: u32,
     /// The new champion, if there is one.
     pub champion: IndividualHeader,
+    /// The confirmed fitness of the new champion; no number if there is none.
+    pub confirmed: f64,
     /// The best fitness.
     pub best: f64,
     /// The mean fitness.
@@ -117,5 +119,5 @@ pub struct ResendRequest {
 // A changed size is a changed layout: give the type a new name, and only then change the number.
 const _: () = assert!(size_of::<IndividualHeader>() == 48);
 const _: () = assert!(size_of::<BatchHeader>() == 24 + 48 * MIGRANTS_MAX);
-const _: () = assert!(size_of::<ReportHeader>() == 24 + 48 + 9 * 8 + 16 * 4 + 7 * 8);
+const _: () = assert!(size_of::<ReportHeader>() == 24 + 48 + 10 * 8 + 16 * 4 + 7 * 8);
 const _: () = assert!(size_of::<ResendRequest>() == 16);

@@ -50,17 +50,16 @@ pub fn calm(times_s: &[f64], points: &[[f32; 2]]) -> Vec<[f32; 2]> {
 pub fn reach(shapes: &[Shape], poses: &[Pose], from: [f32; 3]) -> f32 {
     let far = |(shape, pose): (&Shape, &Pose)| {
         let [x, y, z] = std::array::from_fn(|axis| pose.position_m[axis] - from[axis]);
-        x.hypot(y).hypot(z) + half_diagonal(shape)
+        x.hypot(y).hypot(z) + shape.farthest_m() as f32
     };
     shapes.iter().zip(poses).map(far).fold(0.0, f32::max)
 }
 
-fn half_diagonal(shape: &Shape) -> f32 {
-    let half = match *shape {
-        Shape::Cylinder { radius_m, length_m } => libm::hypot(radius_m, length_m / 2.0),
-        Shape::Cuboid { half_extents_m } => half_extents_m.norm(),
-    };
-    half as f32
+/// The point on a pose's z axis that is so far from its origin, in metres.
+pub fn along_z(pose: &Pose, distance_m: f32) -> [f32; 3] {
+    let [x, y, z, w] = pose.rotation_xyzw;
+    let axis = [2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)];
+    std::array::from_fn(|i| pose.position_m[i] + distance_m * axis[i])
 }
 
 /// Half the vertical extent of a solid in a pose.

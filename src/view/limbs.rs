@@ -4,13 +4,13 @@
 //! batch for the whole clip.
 
 use super::clip::Take;
-use super::extent::every;
+use super::extent::{along_z, every};
 use super::{ViewError, palette};
 use crate::creature::morphology::{JointKind, Shape};
 use crate::creature::{Link, Motor};
 use crate::simulation::trajectory::Pose;
 use nalgebra::{Isometry3, Quaternion as Rotation, Translation3, UnitQuaternion, Vector3, vector};
-use rerun::{Boxes3D, Color, Cylinders3D, FillMode, Quaternion, RecordingStream};
+use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, FillMode, Quaternion, RecordingStream};
 use std::f64::consts::{PI, TAU};
 use std::iter::{RepeatN, repeat_n};
 
@@ -24,6 +24,7 @@ pub(super) fn show(rec: &RecordingStream, take: &Take<'_>) -> Result<(), ViewErr
     rec.log(take.path("champion"), &take.heading.transform())?;
     let mut boxes = Kind::default();
     let mut cylinders = Kind::default();
+    let mut capsules = Kind::default();
     for (link, shape) in take.trajectory().shapes.iter().enumerate() {
         let color = palette::link(take.clip().hue, link);
         match *shape {
@@ -33,10 +34,15 @@ pub(super) fn show(rec: &RecordingStream, take: &Take<'_>) -> Result<(), ViewErr
             Shape::Cylinder { radius_m, length_m } => {
                 cylinders.push(link, [length_m as f32, radius_m as f32], color);
             }
+            Shape::Sphere { radius_m } => capsules.push(link, [0.0, radius_m as f32], color),
+            Shape::Capsule { radius_m, length_m } => {
+                capsules.push(link, [length_m as f32, radius_m as f32], color);
+            }
         }
     }
     show_boxes(rec, take, &boxes)?;
     show_cylinders(rec, take, &cylinders)?;
+    show_capsules(rec, take, &capsules)?;
     show_pins(rec, take)
 }
 
@@ -69,6 +75,28 @@ fn show_cylinders(rec: &RecordingStream, take: &Take<'_>, kind: &Kind<2>) -> Res
     rec.log(path.as_str(), &solids)?;
     let poses = Cylinders3D::update_fields()
         .with_centers(kind.positions(take))
+        .with_quaternions(kind.rotations(take))
+        .columns(kind.lengths(take))?;
+    take.send(rec, path, &take.frames, poses)
+}
+
+/// Capsules, and spheres as capsules without a length. No gene makes them: the champion before had none that
+/// could stay.
+fn show_capsules(rec: &RecordingStream, take: &Take<'_>, kind: &Kind<2>) -> Result<(), ViewError> {
+    if kind.links.is_empty() {
+        return Ok(());
+    }
+    let path = take.path("champion/capsules");
+    let (lengths, radii): (Vec<_>, Vec<_>) = kind.sizes.iter().map(|&[l, r]| (l, r)).unzip();
+    let solids = Capsules3D::from_lengths_and_radii(lengths, radii)
+        .with_colors(kind.colors.iter().copied())
+        .with_fill_mode(FillMode::Solid);
+    rec.log(path.as_str(), &solids)?;
+    // Rerun's stand on their first end, ours about their middle.
+    let lengths = kind.sizes.iter().map(|&[length, _]| length).cycle();
+    let starts = kind.poses(take).zip(lengths).map(|(pose, length)| along_z(&pose, -length / 2.0));
+    let poses = Capsules3D::update_fields()
+        .with_translations(starts)
         .with_quaternions(kind.rotations(take))
         .columns(kind.lengths(take))?;
     take.send(rec, path, &take.frames, poses)

@@ -21,6 +21,7 @@
 //! /islands/{i}/champion            turns what is below so that it goes along the lane
 //! /islands/{i}/champion/boxes      its links as they were simulated, an entity a kind of solid
 //! /islands/{i}/champion/cylinders
+//! /islands/{i}/champion/capsules   spheres too
 //! /islands/{i}/champion/motors     a pin through each driven joint: light or dark as the motor drives
 //! /islands/{i}/trail               the way that its centre of mass came
 //! /islands/{i}/contacts            where it touches the ground, and where it did

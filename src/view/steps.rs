@@ -73,6 +73,10 @@ fn lowest_point(shape: &Shape, pose: &Pose) -> [f32; 3] {
             let share = if round < 0.04 { 0.0 } else { radius_m / round };
             vector![share * down.x, share * down.y, side(down.z) * half.z]
         }
+        Shape::Sphere { radius_m } => radius_m * down,
+        Shape::Capsule { radius_m, length_m } => {
+            radius_m * down + vector![0.0, 0.0, side(down.z) * length_m / 2.0]
+        }
     };
     let offset = rotation * local;
     let [x, y, z] = pose.position_m;

@@ -4,11 +4,11 @@
 use super::pieces::{self, Sum, archipelago};
 use super::wire;
 use islands::app::config::Config;
-use islands::archipelago::{Outbox, island};
+use islands::archipelago::{Champion, Outbox, island};
 use islands::creature::{Gene, Profile, express};
 use islands::evolution::{self, Individual};
 use islands::formats::{genome_csv, metrics};
-use islands::store::{Champion, Entry, Logbook, RecordLog, RunDir, Tail, checkpoint};
+use islands::store::{Entry, Logbook, RecordLog, RunDir, Tail, checkpoint};
 use islands::transport::Limits;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fs;
@@ -177,7 +177,7 @@ pub fn report(data: &[u8]) {
     let ((header, genes), limits) = (wire::report(data), limits());
     let Ok(sighting) = limits.sighting(header, &genes) else { return };
     let champion = sighting.champion.as_ref();
-    champion.into_iter().for_each(|champion| is_sound_individual(champion, &limits));
+    champion.into_iter().for_each(|champion| is_sound_individual(&champion.individual, &limits));
     let effort = sighting.report.effort;
     assert!(sighting.seconds.is_finite() && effort.failures() <= effort.evaluations);
     let again = limits.report(&sighting.report, sighting.seconds, champion);

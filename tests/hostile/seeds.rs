@@ -7,7 +7,7 @@ use islands::app::config::Config;
 use islands::archipelago::{Step, lockstep};
 use islands::creature::Gene;
 use islands::formats::metrics::{self, Row};
-use islands::store::{Champion, Checkpoint, Entry, encode};
+use islands::store::{Checkpoint, Entry, encode};
 use islands::transport::Limits;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -39,10 +39,8 @@ fn parts() -> Vec<Vec<u8>> {
     let steps = steps();
     let mut parts = Vec::new();
     for step in &steps {
-        let (generation, individual) = (step.report.generation, step.island.champion.clone());
-        if step.new_champion {
-            parts.push(part(place::CHAMPIONS, &encode(&Champion { generation, individual })));
-        }
+        let champion = step.champion.as_ref().map(encode);
+        parts.extend(champion.map(|champion| part(place::CHAMPIONS, &champion)));
         parts.push(part(place::REPORTS, &encode(&Entry { report: step.report, seconds: 0.5 })));
         let outbox = step.outbox.as_ref().map(encode);
         parts.extend(outbox.map(|outbox| part(place::MIGRATIONS, &outbox)));
@@ -102,9 +100,9 @@ pub fn outboxes() -> Vec<Vec<u8>> {
 pub fn reports() -> Vec<Vec<u8>> {
     let limits = Limits::of(RUN_ID, &archipelago());
     let bytes = steps().into_iter().map(|step| {
-        let champion = step.new_champion.then_some(&step.island.champion);
+        let champion = step.champion.as_ref();
         let header = limits.report(&step.report, 0.5, champion).unwrap();
-        wire::report_bytes(header, champion.map_or(&[], |champion| &champion.genome))
+        wire::report_bytes(header, champion.map_or(&[], |champion| &champion.individual.genome))
     });
     bytes.collect()
 }

@@ -1,5 +1,6 @@
 //! An island's process: evolve, exchange, record.
 
+mod panics;
 mod patience;
 
 use super::Failure;
@@ -8,9 +9,11 @@ use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
 use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
+use crate::creature::Gene;
 use crate::evolution::Problem;
 use crate::store::{Journal, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
+use panics::Panics;
 use patience::Patience;
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -46,6 +49,7 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
         logbook,
         ear,
         patience: Patience::new(),
+        panics: Panics::of(&dir),
         generation_began: Stopwatch::start(),
         told: Told::default(),
         saved,
@@ -64,6 +68,7 @@ struct Ship<'a, P: Problem> {
     logbook: Logbook<P::Gene>,
     ear: Ear,
     patience: Patience,
+    panics: Panics<'a>,
     generation_began: Stopwatch,
     told: Told,
     /// The generation of its newest checkpoint.
@@ -79,7 +84,7 @@ struct Told {
     finished: bool,
 }
 
-impl<P: Problem> Ship<'_, P> {
+impl<P: Problem<Gene = Gene>> Ship<'_, P> {
     /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
     /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
     fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
@@ -131,6 +136,7 @@ impl<P: Problem> Ship<'_, P> {
         let seconds = std::mem::replace(&mut self.generation_began, Stopwatch::start()).seconds();
         self.patience.learn(seconds);
         self.record(step, seconds)?;
+        self.panics.keep(step);
         let Config { checkpoint_interval, generations, .. } = *self.config;
         let generation = step.island.generation;
         match generation.is_multiple_of(checkpoint_interval) || generation == generations {
@@ -216,8 +222,7 @@ impl<P: Problem> Ship<'_, P> {
         if let Some(outbox) = &step.outbox {
             self.exchange.publish(outbox)?;
         }
-        let champion = step.new_champion.then_some(&step.island.champion);
-        self.exchange.report(&step.report, seconds, champion)?;
+        self.exchange.report(&step.report, seconds, step.champion.as_ref())?;
         Ok(())
     }
 

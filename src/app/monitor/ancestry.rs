@@ -1,11 +1,10 @@
 //! When whose family is shown.
 
 use super::super::pedigree;
-use crate::archipelago::{Births, Lineage, Report};
+use crate::archipelago::{Births, Champion, Lineage, Report};
 use crate::creature::Gene;
 use crate::evolution::{Fitness, Id};
 use crate::problems::Locomotion;
-use crate::store::Champion;
 use crate::view::{Family, Pace};
 
 /// Shows, whenever a slot of the film opens, the family of the best champion that there is in its generation, once
@@ -48,8 +47,9 @@ impl Ancestry {
         if let Some(births) = births {
             self.lineage.push(report.island, births);
         }
-        if let Some(Champion { generation, individual }) = champion {
-            self.champions[island].push((*generation, individual.id, individual.fitness));
+        if let Some(champion) = champion {
+            let (id, standing) = (champion.individual.id, champion.standing());
+            self.champions[island].push((champion.generation, id, standing));
         }
         self.known[island] = report.generation + 1;
     }

@@ -3,14 +3,14 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::say;
-use super::super::pedigree;
+use super::super::{pedigree, result};
 use super::ancestry::Ancestry;
 use super::logs::Sighting;
+use crate::archipelago::Champion;
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Outcome, Problem};
 use crate::problems::Locomotion;
 use crate::simulation::Trajectory;
-use crate::store::Champion;
 use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -173,7 +173,7 @@ impl Cinema {
 
     fn news(&self, island: u32, champion: &Champion<Gene>) -> String {
         let individual = &champion.individual;
-        let score = self.problem.show(individual.fitness);
+        let score = result::show(&self.problem, champion);
         let links = self.problem.express(&individual.genome).map_or_else(
             |_| String::new(),
             |creature| format!(", {} links", creature.morphology.links.len()),
@@ -186,7 +186,8 @@ impl Cinema {
     /// reported with, bit for bit: what is seen is what was scored.
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
-        let Champion { generation, individual } = champion;
+        let score = pedigree::standing(&self.problem, &champion);
+        let Champion { generation, individual, .. } = champion;
         let Some((evaluation, trajectory)) = self.simulate(&individual.genome) else {
             return Ok(());
         };
@@ -200,7 +201,6 @@ impl Cinema {
             self.recorder.event(Some(island), generation, &news)?;
         }
         let Ok(creature) = self.problem.express(&individual.genome) else { return Ok(()) };
-        let score = pedigree::short(&self.problem, individual.fitness);
         let origin = pedigree::origin(individual.id, individual.parents, island);
         Ok(self.recorder.champion(&Clip {
             lane: island,

@@ -1,9 +1,9 @@
 //! What the islands of a run have written down, read while they write on.
 
 use super::super::console::say;
-use crate::archipelago::{Births, Report};
+use crate::archipelago::{Births, Champion, Report};
 use crate::creature::Gene;
-use crate::store::{Champion, Entry, RunDir, StoreError, Tail};
+use crate::store::{Entry, RunDir, StoreError, Tail};
 use std::path::PathBuf;
 
 /// A generation of an island.

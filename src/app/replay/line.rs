@@ -5,10 +5,10 @@ use super::super::config::Config;
 use super::super::console::{print, say};
 use super::super::{Failure, pedigree};
 use super::film::{Studio, recorder};
-use crate::archipelago::{Births, Lineage};
+use crate::archipelago::{Births, Champion, Lineage};
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Id, Individual, Problem};
-use crate::store::{Champion, RecordLog, RunDir};
+use crate::evolution::{Id, Individual, Problem};
+use crate::store::{RecordLog, RunDir};
 use crate::view::{Clip, Family, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};
 
@@ -115,10 +115,12 @@ fn champions(dir: &RunDir, config: &Config) -> Result<Vec<Individual<Gene>>, Fai
         all.extend(log.into_iter().map(|champion| (champion.generation, island, champion)));
     }
     all.sort_by_key(|&(generation, island, _)| (generation, island));
-    let mut best: Option<Fitness> = None;
+    let mut best = None;
     let better = all.into_iter().filter(|(.., champion)| {
-        let is_better = best.is_none_or(|best| champion.individual.fitness > best);
-        best = best.max(Some(champion.individual.fitness));
+        let is_better = best.is_none_or(|best| champion.standing() > best);
+        if is_better {
+            best = Some(champion.standing());
+        }
         is_better
     });
     Ok(better.map(|(.., champion)| champion.individual).collect())

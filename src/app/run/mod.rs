@@ -176,12 +176,15 @@ fn present(summary: &Summary, output: &OutputArgs) {
 
 fn show(summary: &Summary) {
     print(&format!(
-        "best     {}, island {}\nfound in {} evaluations, {:.1} a second\ndigest   {}\nfiles    {}\n\
+        "best     {}, island {}\nfound in {} evaluations, {:.1} a second; {} failed\n\
+         reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}\n\
          film     islands replay {} --task {} --profile {} --out champion.rrd",
         summary.best,
         summary.best_island,
         summary.evaluations,
         summary.evaluations_per_second,
+        summary.failures,
+        summary.reused,
         summary.digest,
         summary.run_dir.display(),
         summary.best_genome.display(),

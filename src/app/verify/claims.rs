@@ -89,7 +89,7 @@ pub fn check(
     let checks = vec![
         check_digest(dir, digest.as_deref(), summary, records.states.len()),
         check_summary(dir, terms, finals.filter(|_| sound), records, summary),
-        check_champion(dir, terms, finals),
+        check_champion(dir, terms, records),
         check_metrics(dir, terms, records, sound),
     ];
     (digest, checks)
@@ -118,12 +118,13 @@ fn check_summary(
     summary: &SummaryFile,
 ) -> Check {
     let mut check = Check::of("summary").checked("summary.json");
-    match (summary, finals) {
+    let best = result::best(&records.champions);
+    match (summary, finals.zip(best)) {
         (SummaryFile::Missing, _) => check.damaged("it is missing"),
         (SummaryFile::Damaged(reason), _) => check.damaged(reason),
         (SummaryFile::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
-        (SummaryFile::Whole(said), Some(finals)) => {
-            let right = result::summarise(dir, terms.config, finals, &records.reports);
+        (SummaryFile::Whole(said), Some((finals, best))) => {
+            let right = result::summarise(dir, terms.config, finals, best, &records.reports);
             let right = serde_json::to_value(right).expect("a summary is plain data");
             let claims = right.as_object().into_iter().flatten();
             for (key, value) in claims.filter(|(key, _)| !FREE.contains(&key.as_str())) {
@@ -141,13 +142,14 @@ fn check_summary(
 }
 
 /// The files of the best creature must be those that a run writes for it.
-fn check_champion(dir: &RunDir, terms: &Terms, finals: Option<&[Island<Gene>]>) -> Check {
+fn check_champion(dir: &RunDir, terms: &Terms, records: &Records) -> Check {
     let mut check = Check::of("champion").checked("champion.csv, .urdf");
-    let champion = finals.map(|finals| &result::best(finals).champion.genome);
-    let Some(genome) = champion else {
+    let finals = records.finals(terms);
+    let Some((_, champion)) = finals.and_then(|_| result::best(&records.champions)) else {
         check.note("not checked: a final population is missing or damaged");
         return check;
     };
+    let genome = &champion.individual.genome;
     let mut right = Vec::new();
     genome_csv::write(genome, &mut right).expect("memory takes everything");
     compare(&mut check, &dir.champion_genome(), &right, "the best champion's genome");

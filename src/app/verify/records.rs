@@ -3,9 +3,10 @@
 use super::check::{Check, counted};
 use super::retrial::Claim;
 use super::rules::Terms;
-use crate::archipelago::{Births, Island, Outbox};
+use crate::archipelago::{Births, Champion, Island, Outbox};
 use crate::creature::Gene;
-use crate::store::{Champion, Checkpoints, Entry, RecordLog, RunDir};
+use crate::evolution::{Fitness, Individual};
+use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -44,25 +45,34 @@ impl Records {
 
     /// All who are said to have a fitness: champions; thoroughly, also those who live in the newest states and all
     /// who migrated.
-    pub fn claims(&self, thorough: bool, terms: &Terms) -> Vec<Claim<'_>> {
+    pub fn claims<'a>(&'a self, thorough: bool, terms: &Terms) -> Vec<Claim<'a>> {
+        let problem = terms.config.problem();
+        let (engine, judge) = (problem.engine, problem.judge().map(|judge| judge.engine));
         let champions = (0..).zip(&self.champions).flat_map(|(island, champions)| {
-            champions.iter().map(move |Champion { generation, individual }| Claim {
-                who: "champion",
-                island,
-                generation: *generation,
-                individual,
-            })
+            champions.iter().map(move |champion| (island, champion))
+        });
+        let claim = move |who, island, generation, individual: &'a Individual<Gene>| {
+            let fitness = individual.fitness;
+            Claim { who, island, generation, genome: &individual.genome, fitness, engine }
+        };
+        let champions = champions.flat_map(move |(island, champion)| {
+            let Champion { generation, ref individual, confirmed } = *champion;
+            let own = claim("champion", island, generation, individual);
+            let fitness = confirmed.unwrap_or(Fitness::WORST);
+            let other =
+                judge.map(|engine| Claim { who: "confirmed champion", fitness, engine, ..own });
+            std::iter::once(own).chain(other)
         });
         let residents = self.states.iter().flat_map(|state| {
             let Island { index: island, generation, .. } = *state;
-            let claim = move |individual| Claim { who: "resident", island, generation, individual };
+            let claim = move |individual| claim("resident", island, generation, individual);
             state.population.iter().map(claim)
         });
         let interval = terms.config.migration_interval;
         let migrants = self.outboxes.iter().flatten().flat_map(|outbox| {
             let island = outbox.island;
             let generation = outbox.epoch.saturating_add(1).saturating_mul(interval);
-            let claim = move |individual| Claim { who: "migrant", island, generation, individual };
+            let claim = move |individual| claim("migrant", island, generation, individual);
             outbox.migrants.iter().map(claim)
         });
         match thorough {

@@ -4,10 +4,10 @@ use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::check::{Check, counted};
 use crate::creature::Gene;
-use crate::evolution::{Fitness, Gene as _, Individual, Problem};
+use crate::evolution::{Fitness, Gene as _, Problem, sharing};
 use crate::problems::Locomotion;
+use crate::simulation::Engine;
 use indicatif::{ProgressBar, ProgressStyle};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{self, Display, Formatter};
@@ -27,8 +27,12 @@ pub struct Claim<'a> {
     pub island: u32,
     /// In which generation.
     pub generation: u32,
-    /// The genome and what it is said to be worth.
-    pub individual: &'a Individual<Gene>,
+    /// The genome.
+    pub genome: &'a [Gene],
+    /// What it is said to be worth…
+    pub fitness: Fitness,
+    /// … when moved by this.
+    pub engine: Engine,
 }
 
 /// Somebody who is not as good as a file says.
@@ -80,15 +84,12 @@ impl Retrial {
 
 /// Simulates on the threads of the current rayon pool, equal genomes once.
 pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
-    let genomes: BTreeMap<&[u8], &[Gene]> = claims
-        .iter()
-        .map(|claim| (key(claim), claim.individual.genome.as_slice()))
-        .filter(|(_, genome)| may_have_lived(genome, config))
-        .collect();
-    let found = evaluate(genomes, &config.problem());
+    let claims_to_try = claims.iter().filter(|claim| may_have_lived(claim.genome, config));
+    let trials: BTreeMap<Key, &Claim> = claims_to_try.map(|claim| (key(claim), claim)).collect();
+    let found = evaluate(trials, &config.problem());
     let mismatch = |claim: &Claim| {
-        let Claim { who, island, generation, individual } = *claim;
-        let (recorded, found) = (individual.fitness, found.get(key(claim)).copied());
+        let Claim { who, island, generation, fitness: recorded, .. } = *claim;
+        let found = found.get(&key(claim)).copied();
         let bits = |fitness: Fitness| fitness.get().to_bits();
         let is_right = found.map(bits) == Some(bits(recorded));
         (!is_right).then(|| Mismatch {
@@ -110,24 +111,27 @@ fn may_have_lived(genome: &[Gene], config: &Config) -> bool {
 
 /// The fitness of each genome.
 fn evaluate<'a>(
-    genomes: BTreeMap<&'a [u8], &[Gene]>,
+    trials: BTreeMap<Key<'a>, &Claim>,
     problem: &Locomotion,
-) -> BTreeMap<&'a [u8], Fitness> {
-    let genomes: Vec<_> = genomes.into_iter().collect();
-    let meter = Meter::new(genomes.len());
-    let evaluate = |&(key, genome): &(_, &[Gene])| {
-        let evaluation = problem.evaluate(genome);
+) -> BTreeMap<Key<'a>, Fitness> {
+    let trials: Vec<_> = trials.into_iter().collect();
+    let meter = Meter::new(trials.len());
+    let costs: Vec<u64> = trials.iter().map(|(_, claim)| problem.cost(claim.genome)).collect();
+    let found = sharing::dearest_first(&costs, |index| {
+        let (key, claim) = trials[index];
+        let evaluation = Locomotion { engine: claim.engine, ..*problem }.evaluate(claim.genome);
         meter.tick();
         (key, evaluation.fitness)
-    };
-    let found = genomes.par_iter().with_max_len(1).map(evaluate).collect();
+    });
     meter.finish();
-    found
+    found.into_iter().collect()
 }
 
-/// Equal genomes have equal bytes.
-fn key<'a>(claim: &Claim<'a>) -> &'a [u8] {
-    bytemuck::cast_slice(&claim.individual.genome)
+/// What is simulated once. Equal genomes have equal bytes.
+type Key<'a> = (Engine, &'a [u8]);
+
+fn key<'a>(claim: &Claim<'a>) -> Key<'a> {
+    (claim.engine, bytemuck::cast_slice(claim.genome))
 }
 
 /// How far it has come: a bar on a terminal, now and then a line elsewhere.

@@ -4,12 +4,12 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Island, Outbox};
+use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
 use crate::evolution::{Fitness, Id};
-use crate::store::{Champion, Checkpoint, Entry};
+use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
 /// The run that the files must be of.
@@ -172,6 +172,13 @@ impl<'a> Terms<'a> {
     ) -> Result<(), String> {
         if champions.first().is_some_and(|first| first.generation != 0) {
             return Err("its first champion is not of generation 0".to_owned());
+        }
+        let is_judged = self.config.problem().judge().is_some();
+        if champions.iter().any(|champion| champion.confirmed.is_some() != is_judged) {
+            return Err(match is_judged {
+                true => "it has a champion that rapier did not confirm".to_owned(),
+                false => "it has a champion that was confirmed, as none of this run is".to_owned(),
+            });
         }
         for pair in champions.windows(2) {
             let [before, after] = [&pair[0], &pair[1]];

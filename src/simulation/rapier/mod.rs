@@ -71,11 +71,16 @@ impl RapierWorld {
     /// Takes away the damping that rapier gives to angular degrees of freedom, the free root's included:
     /// nothing but motors, gravity and the ground acts on a body.
     fn free_of_hidden_forces(&mut self) {
-        let Some(joint) = self.parts.iter().find_map(|(_, joint)| *joint) else { return };
+        let Some(joint) = self.joint() else { return };
         if let Some((multibody, _)) = self.scene.world.multibody_joints.get_mut(joint) {
             multibody.set_self_contacts_enabled(false);
             multibody.damping_mut().fill(0.0);
         }
+    }
+
+    /// A joint of the body: any of them leads to the one multibody.
+    fn joint(&self) -> Option<rapier::MultibodyJointHandle> {
+        self.parts.iter().find_map(|(_, joint)| *joint)
     }
 
     fn rigid_body(&self, part: usize) -> &rapier::RigidBody {
@@ -101,12 +106,44 @@ impl World for RapierWorld {
         }
     }
 
+    fn halt(&mut self) {
+        if let Some((multibody, _)) =
+            self.joint().and_then(|joint| self.scene.world.multibody_joints.get_mut(joint))
+        {
+            multibody.generalized_velocity_mut().fill(0.0);
+        }
+        for (rigid_body, _) in &self.parts {
+            let rigid_body = &mut self.scene.world.bodies[*rigid_body];
+            rigid_body.set_linvel(rapier::Vector::ZERO, false);
+            rigid_body.set_angvel(rapier::Vector::ZERO, false);
+        }
+    }
+
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
         from_rapier(self.rigid_body(part).position())
     }
 
     fn velocity_m_s(&self, part: usize) -> Vector3<f64> {
         Vector3::from(self.rigid_body(part).linvel().to_array()).cast()
+    }
+
+    #[cfg(test)]
+    fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>) {
+        let [v, w] = [velocity_m_s, turn_rad_s].map(|it| it.cast::<f32>());
+        let rapier::PhysicsWorld { bodies, multibody_joints, .. } = &mut self.scene.world;
+        match self.parts.iter().find_map(|(_, joint)| *joint) {
+            Some(joint) => {
+                let (multibody, _) = multibody_joints.get_mut(joint).expect("it was inserted");
+                let root = [v.x, v.y, v.z, w.x, w.y, w.z];
+                let mut velocities = multibody.generalized_velocity_mut();
+                velocities.rows_mut(0, root.len()).copy_from_slice(&root);
+            }
+            None => {
+                let root = &mut bodies[self.parts[0].0];
+                root.set_linvel(rapier::Vector::new(v.x, v.y, v.z), true);
+                root.set_angvel(rapier::Vector::new(w.x, w.y, w.z), true);
+            }
+        }
     }
 }
 
@@ -119,6 +156,13 @@ fn collider(solid: &Solid) -> rapier::ColliderBuilder {
         ),
         Shape::Cuboid { half_extents_m: half } => (
             rapier::ColliderBuilder::cuboid(half.x as f32, half.y as f32, half.z as f32),
+            Isometry3::identity(),
+        ),
+        Shape::Sphere { radius_m } => {
+            (rapier::ColliderBuilder::ball(radius_m as f32), Isometry3::identity())
+        }
+        Shape::Capsule { radius_m, length_m } => (
+            rapier::ColliderBuilder::capsule_z((length_m / 2.0) as f32, radius_m as f32),
             Isometry3::identity(),
         ),
     };
@@ -142,69 +186,4 @@ fn from_rapier(pose: &rapier::Pose) -> Isometry3<f64> {
         translation.into(),
         UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::stability::Ledger;
-    use super::super::trial::Start;
-    use super::super::world::centre_of_mass;
-    use super::super::{Engine, simulate};
-    use super::*;
-    use crate::creature::gene::PARAMETER_COUNT;
-    use crate::creature::{Gene, Profile, express};
-
-    const TRIAL: Trial = Trial {
-        steps_per_s: 240,
-        gravity_m_s2: 9.81,
-        start: Start::LowestAt(0.0),
-        settle_s: 0.0,
-        scored_s: 2.0,
-        keeps_ledger: true,
-    };
-
-    /// Pushes a log that lies on the ground and enters what it does.
-    fn pushed(pushes_m_s: &[f32]) -> Result<(), Outcome> {
-        let log = express(&[Gene([0.5; PARAMETER_COUNT])], Profile::Native, 1).unwrap();
-        let log = Assembly::new(&log, &TRIAL);
-        let mut world = RapierWorld::new(&log, &TRIAL);
-        let mut ledger = Ledger::new(&TRIAL, 24, centre_of_mass(&world, &log));
-        for &push_m_s in pushes_m_s {
-            let rigid_body = &mut world.scene.world.bodies[world.parts[0].0];
-            let push = rapier::Vector::new(push_m_s, 0.0, 0.0);
-            rigid_body.set_linvel(rigid_body.linvel() + push, true);
-            for _ in 0..5 {
-                (0..24).try_for_each(|_| world.step())?;
-                ledger.enter(centre_of_mass(&world, &log))?;
-            }
-        }
-        Ok(())
-    }
-
-    #[test]
-    fn a_body_that_slides_to_a_halt_has_accounted_for_its_momentum() {
-        assert_eq!(pushed(&[3.0, 0.0, 0.0, 0.0]), Ok(()));
-    }
-
-    #[test]
-    fn a_push_from_nowhere_is_found() {
-        assert_eq!(pushed(&[3.0, 0.0, 0.7, 0.0]), Err(Outcome::Unphysical));
-    }
-
-    #[test]
-    fn nothing_that_a_body_does_in_empty_space_moves_its_centre_of_mass() {
-        let (root, mut fixed, mut limb) = (
-            Gene([0.5; PARAMETER_COUNT]),
-            Gene([0.7; PARAMETER_COUNT]),
-            Gene([0.3; PARAMETER_COUNT]),
-        );
-        (fixed.0[5], fixed.0[6]) = (0.9, 0.0);
-        (limb.0[5], limb.0[6], limb.0[15]) = (0.1, 0.0, 0.9);
-        let creature = express(&[root, fixed, limb], Profile::Native, 8).unwrap();
-        let start = Start::RootAt(10.0);
-        let trial = Trial { gravity_m_s2: 0.0, start, scored_s: 4.0, ..TRIAL };
-        let measured = simulate(&creature, &trial, Engine::Rapier).unwrap();
-        assert!((measured.root_last_m - measured.root_first_m).norm() > 0.01, "{measured:?}");
-        assert!((measured.centre_last_m - measured.centre_first_m).norm() < 0.01, "{measured:?}");
-    }
 }

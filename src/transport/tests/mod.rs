@@ -8,7 +8,7 @@ use super::ports;
 use super::services::{self, Plan};
 use super::wire::{BatchHeader, NOBODY, ReportHeader, ResendRequest, WireGene};
 use super::*;
-use crate::archipelago::{Archipelago, Inbox, Migration, Outbox, Report, Topology};
+use crate::archipelago::{Archipelago, Champion, Inbox, Migration, Outbox, Report, Topology};
 use crate::evolution::generation::Effort;
 use crate::evolution::{
     Fitness, Gene, Id, Individual, Selection, Spread, Statistics, Strategy, Variation,
@@ -183,7 +183,8 @@ fn reports_arrive_with_and_without_a_champion() {
     let (domain, archipelago, _harbour) = launch(5, 2);
     let lookout = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
     let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
-    let champion = individual(0, 3, 1);
+    let confirmed = Some(Fitness::new(0.25));
+    let champion = Champion { generation: 7, individual: individual(0, 3, 1), confirmed };
     exchange.report(&report(1, 7), 0.5, Some(&champion)).unwrap();
     exchange.report(&report(1, 8), 0.25, None).unwrap();
     let first = Sighting { report: report(1, 7), seconds: 0.5, champion: Some(champion) };
@@ -253,8 +254,8 @@ fn every_malformed_outbox_is_rejected() {
 
 #[test]
 fn every_malformed_report_is_rejected() {
-    let champion = individual(1, 6, 1);
-    let genes: Vec<_> = champion.genome.iter().map(|&gene| WireGene(gene)).collect();
+    let champion = Champion { generation: 6, individual: individual(1, 6, 1), confirmed: None };
+    let genes: Vec<_> = champion.individual.genome.iter().map(|&gene| WireGene(gene)).collect();
     let header = limits().report(&report(1, 6), 0.5, Some(&champion)).unwrap();
     assert!(limits().sighting(header, &genes).is_ok());
     let spoilt = |header: ReportHeader| limits().sighting(header, &genes).unwrap_err();

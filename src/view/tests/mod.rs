@@ -3,6 +3,7 @@
 mod kit;
 
 use super::*;
+use crate::creature::Shape;
 use crate::evolution::Fitness;
 use kit::*;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -162,6 +163,33 @@ fn a_kind_that_the_next_champion_lacks_is_cleared() {
     });
     let rows = instances(&chunks, "/islands/0/champion/cylinders", "Cylinders3D:lengths");
     assert_eq!(rows, [(0, 8), (500_000_000, 0)]);
+}
+
+#[test]
+fn a_capsule_is_shown_about_its_middle_and_a_sphere_as_a_capsule_without_length() {
+    let chunks = record(|recorder| {
+        let mut round = walker(30, 1, 0.0);
+        round.shapes[0] = Shape::Sphere { radius_m: 0.2 };
+        round.shapes[1] = Shape::Capsule { radius_m: 0.1, length_m: 0.6 };
+        for poses in &mut round.poses {
+            poses[1] = pose(
+                Vector3::new(1.0, 2.0, 3.0),
+                UnitQuaternion::from_euler_angles(TAU / 4.0, 0.0, 0.0),
+            );
+        }
+        recorder.champion(&clip(0, 0, round))?;
+        recorder.report(&report(0, 0))
+    });
+    let path = "/islands/0/champion/capsules";
+    assert_eq!(instances(&chunks, path, "Capsules3D:lengths"), [(0, 2)]);
+    let poses = only(&chunks, path, |chunk| chunk.num_rows() == 30);
+    let mut names = poses.components_identifiers();
+    let starts = names.find(|name| name.as_str().ends_with(":translations")).unwrap();
+    let first = poses.iter_slices::<[f32; 3]>(starts).next().unwrap();
+    // A quarter turn about x brings its z axis to -y.
+    for (found, expected) in first[1].iter().zip([1.0, 2.3, 3.0]) {
+        assert!((found - expected).abs() < 1e-6, "{first:?}");
+    }
 }
 
 #[test]

@@ -1,0 +1,81 @@
+//! Bodies that no genome makes, put together by hand.
+
+use crate::creature::{
+    Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+
+/// A body of boxes that is being put together.
+pub struct Body(Creature);
+
+/// A hinge between a new box and one that is there.
+pub struct Hinge {
+    pub parent: usize,
+    /// Its place in the parent's frame; the box is turned like it.
+    pub parent_from_hinge: Isometry3<f64>,
+    /// The box's centre in its frame.
+    pub centre_m: Vector3<f64>,
+    pub axis: Vector3<f64>,
+    /// The strength of its motor, which does not turn unless it is driven; 0 turns freely.
+    pub torque_nm_max: f64,
+}
+
+impl Body {
+    /// A body of one box, given half its size.
+    pub fn of(half_extents_m: [f64; 3], mass_kg: f64) -> Self {
+        Self(Creature {
+            traits: Vec::new(),
+            tree: Vec::new(),
+            morphology: Morphology {
+                links: vec![cuboid(half_extents_m, mass_kg, None)],
+                root_rotation: UnitQuaternion::identity(),
+            },
+            controller: Controller { period_s: 0.1, motors: vec![None] },
+        })
+    }
+
+    /// Adds a box on a hinge.
+    pub fn with(mut self, half_extents_m: [f64; 3], mass_kg: f64, hinge: Hinge) -> Self {
+        let joint = Joint {
+            parent: hinge.parent,
+            parent_from_joint: hinge.parent_from_hinge,
+            joint_from_link: Translation3::from(hinge.centre_m).into(),
+            kind: JointKind::Revolute(hinge.axis),
+        };
+        let motor = Motor {
+            waveform: Waveform::Pulse,
+            amplitude_rad_s: 0.0,
+            phase_start_rad: 0.0,
+            phase_step_rad: 0.0,
+            torque_nm_max: hinge.torque_nm_max,
+        };
+        self.0.morphology.links.push(cuboid(half_extents_m, mass_kg, Some(joint)));
+        self.0.controller.motors.push(Some(motor));
+        self
+    }
+
+    pub fn build(self) -> Creature {
+        self.0
+    }
+}
+
+fn cuboid(half_extents_m: [f64; 3], mass_kg: f64, joint: Option<Joint>) -> Link {
+    Link { shape: Shape::Cuboid { half_extents_m: half_extents_m.into() }, mass_kg, joint }
+}
+
+/// A trunk with two limbs, one of which has a limb of its own; hinges about all three axes.
+pub fn limbs(torque_nm_max: f64) -> Creature {
+    let hinge = |parent, at_m: [f64; 3], centre_m: [f64; 3], axis| Hinge {
+        parent,
+        parent_from_hinge: Isometry3::from(Translation3::from(at_m)),
+        centre_m: centre_m.into(),
+        axis,
+        torque_nm_max,
+    };
+    let (x, y, z) = (Vector3::x(), Vector3::y(), Vector3::z());
+    Body::of([0.3, 0.2, 0.1], 5.0)
+        .with([0.2, 0.05, 0.05], 1.0, hinge(0, [0.3, 0.1, 0.0], [0.2, 0.0, 0.0], y))
+        .with([0.15, 0.05, 0.04], 0.5, hinge(1, [0.2, 0.0, 0.0], [0.15, 0.0, 0.0], z))
+        .with([0.05, 0.2, 0.05], 1.0, hinge(0, [-0.2, 0.2, 0.0], [0.0, 0.2, 0.0], x))
+        .build()
+}

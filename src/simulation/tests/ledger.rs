@@ -1,0 +1,43 @@
+//! The ledger of momentum, kept of bodies that an engine moves.
+
+use super::super::Engine;
+use super::super::stability::Ledger;
+use super::TRIAL;
+use super::bodies::Body;
+use super::lab::Lab;
+use crate::evolution::Outcome;
+use nalgebra::Vector3;
+
+/// Pushes a box that lies on the ground, every half a second, and enters what it does.
+fn pushed(engine: Engine, pushes_m_s: &[f64]) -> Result<(), Outcome> {
+    let mut lab = Lab::new(engine, &Body::of([0.5, 0.3, 0.3], 90.0).build(), TRIAL);
+    let mut ledger = Ledger::new(&TRIAL, 24, lab.centre_of_mass());
+    for &push_m_s in pushes_m_s {
+        if push_m_s > 0.0 {
+            lab.world.kick(Vector3::x() * push_m_s, Vector3::zeros());
+        }
+        for _ in 0..5 {
+            lab.run(0.1);
+            ledger.enter(lab.centre_of_mass())?;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_body_that_slides_to_a_halt_has_accounted_for_its_momentum() {
+    for engine in Engine::ALL {
+        assert_eq!(pushed(engine, &[3.0, 0.0, 0.0, 0.0]), Ok(()), "{engine}");
+    }
+}
+
+#[test]
+fn a_push_from_nowhere_is_found() {
+    for engine in Engine::ALL {
+        assert_eq!(
+            pushed(engine, &[3.0, 0.0, 0.0, 0.7, 0.0]),
+            Err(Outcome::Unphysical),
+            "{engine}"
+        );
+    }
+}
