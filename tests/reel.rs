@@ -120,6 +120,10 @@ impl Recording {
                         continue;
                     }
                     let name = column.descriptor.to_string();
+                    // Bars are tensors, which are printed with those of the rows beside them.
+                    if name.starts_with("BarChart:") {
+                        continue;
+                    }
                     let key = (path.clone(), time("playback"), time("generation"), name);
                     rows.entry(key)
                         .or_default()
