@@ -122,7 +122,7 @@ impl Recording {
                     }
                     let name = column.descriptor.to_string();
                     let key = (path.clone(), time("playback"), time("generation"), name);
-                    // Its debug output would hold what else is in the chunk, and chunks are cut by chance.
+                    // The debug output of a union holds the rows beside it, and chunks are cut by chance.
                     let value = array_value_to_string(&column.list_array, row).unwrap();
                     rows.entry(key).or_default().push(value);
                 }

@@ -91,11 +91,11 @@ fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
     let ending = world.islands("replay run/champion.csv --seconds 12");
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let recording = Recording::read(&world.path("run/champion.rrd"));
-    // It settles as ever, and there is a frame for each sixtieth of a second but the last.
-    let expected = (Task::Walk.trial().settle_s + 12.0) * 60.0;
+    // Settling comes first; there is a frame for each sixtieth of a second but the last.
+    let frames_wanted = ((Task::Walk.trial().settle_s + 12.0) * 60.0) as usize;
     let frames = ["boxes", "cylinders"]
         .map(|kind| recording.frames(&format!("/islands/0/champion/{kind}")).len());
-    assert_eq!(frames.into_iter().max(), Some(expected as usize));
+    assert_eq!(frames.into_iter().max(), Some(frames_wanted));
     for (wish, reason) in [
         ("run run/champion.csv", "a run is replayed alone"),
         ("run/champion.csv --ancestry", "a genome alone has no ancestors"),
