@@ -40,6 +40,17 @@ fn every_champion_of_another_engine_is_scored_again_by_rapier() {
 }
 
 #[test]
+fn a_run_that_begins_with_genomes_is_confirmed_too() {
+    let world = World::new();
+    world.write("one.csv", crate::course::fixture("genome_0.csv"));
+    let settings = "--n 1 --seed 3 --engine featherstone --seed-genomes one.csv --no-monitor";
+    let result = world.json(&format!("--out run --json {settings} {TINY}"));
+    assert!(result["best_confirmed"].is_number(), "{result}");
+    let verified = world.islands("verify run --json");
+    assert_eq!(verified.code, Some(0), "{verified:?}");
+}
+
+#[test]
 fn a_forged_confirmation_is_found() {
     let world = World::new();
     evolved(&world);

@@ -16,6 +16,10 @@ mod imports;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;
+#[cfg(feature = "view")]
+mod reel;
+#[cfg(feature = "view")]
+mod replay;
 mod resume;
 mod run;
 mod support;

@@ -1,20 +1,16 @@
 //! What a viewer gets to see is what was scored.
 
+use crate::reel::Recording;
 use crate::support::{Ending, TINY, World, await_generation, signal, until};
 use islands::archipelago::Champion;
-use islands::creature::{Gene, Profile};
+use islands::creature::Gene;
 use islands::evolution::Fitness;
-use islands::formats::{genome_csv, metrics};
+use islands::formats::metrics;
 use islands::problems::{Locomotion, Task};
-use islands::simulation::{Pose, Trajectory};
 use islands::store::{Entry, RecordLog, RunDir, checkpoint};
-use re_log_encoding::DecoderApp;
-use rerun::StoreKind;
-use rerun::log::{Chunk, LogMsg};
 use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::BufReader;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 const WALK: Locomotion = Locomotion { genes: 2, ..Locomotion::DEFAULT };
@@ -170,8 +166,8 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     let warning = "WARNING: the champion of island 0 was reported with ";
     assert_eq!(ending.stderr.matches(warning).count(), 12, "{ending:?}");
     let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
-    let count = |word| events.iter().filter(|event| event.starts_with(word)).count();
-    assert_eq!((count(warning), count("new champion, ")), (12, 32));
+    let count = |word| events.iter().filter(|event| event.contains(word)).count();
+    assert_eq!((count(warning), count(": new champion, ")), (12, 32));
 }
 
 #[test]
@@ -237,44 +233,65 @@ fn a_recording_tells_what_happened() {
     let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
     let count = |word: &str| events.iter().filter(|event| event.contains(word)).count();
     assert!(count("new champion") >= 2, "{events:?}");
-    assert_eq!(count("2 immigrants arrive"), 2, "{events:?}");
+    assert_eq!(count(": 2 immigrants"), 2, "{events:?}");
     assert_eq!(count("WARNING"), 0, "{events:?}");
 }
 
 #[test]
-fn a_replay_shows_the_simulation_that_got_the_score() {
+fn two_runs_of_a_seed_have_the_same_film_row_by_row() {
     let world = World::new();
-    let run = world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
-    let ending = world.islands("replay run/champion.csv --out champion.rrd");
-    assert_eq!(ending.code, Some(0), "{ending:?}");
-    let score = format!("{:.3} m", run["best_fitness"].as_f64().unwrap());
-    assert!(ending.stdout.contains(&score), "{ending:?}");
-    assert!(ending.stdout.ends_with("view it:  rerun champion.rrd\n"), "{ending:?}");
-
-    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
-    let (evaluation, film) = WALK.film(&genome).unwrap();
-    assert_eq!(run["best_fitness"], evaluation.fitness.get());
-    Recording::read(&world.path("champion.rrd")).assert_ends_with(0, &film, Task::Walk);
+    let films = ["a", "b"].map(|name| {
+        world.json(&format!("--n 2 --seed 41 --out {name} --quiet --json --clip-every 2 {TINY}"));
+        Recording::read(&world.path(&format!("{name}/recording.rrd"))).rows()
+    });
+    assert_eq!(films[0].len(), films[1].len());
+    for (a, b) in films[0].iter().zip(&films[1]) {
+        assert_eq!(a, b);
+    }
+    for entity in ["/events", "/family", "/state/island-0", "/islands/1/prints", "/topology"] {
+        assert!(films[0].keys().any(|(path, ..)| path == entity), "{entity}");
+    }
 }
 
 #[test]
-fn several_creatures_race_in_one_replay() {
+fn a_wished_port_that_is_taken_is_said_and_nobody_is_served_if_that_is_wished() {
     let world = World::new();
-    let course = |i| format!("genome_{i}.csv");
-    for i in [1, 2] {
-        world.write(&course(i), crate::course::fixture(&course(i)));
-    }
-    let problem = Locomotion { profile: Profile::Coursework, task: Task::Course, ..WALK };
-    let files = [1, 2].map(course).join(" ");
-    let ending =
-        world.islands(&format!("replay {files} --profile coursework --task course --out race.rrd"));
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port();
+    let settings = "--n 1 --seed 3 --population 4 --generations 2 --genes 1";
+    let ending = world.islands(&format!("{settings} --out a --view-port {port}"));
     assert_eq!(ending.code, Some(0), "{ending:?}");
-    let recording = Recording::read(&world.path("race.rrd"));
-    for (lane, i) in [(0, 1), (1, 2)] {
-        let genome = genome_csv::read(world.read(&course(i)).as_bytes()).unwrap().genome;
-        let (_, film) = problem.film(&genome).unwrap();
-        recording.assert_ends_with(lane, &film, Task::Course);
-    }
+    let said = format!("port {port} is taken; the live view is served on port ");
+    assert!(ending.stderr.contains(&said), "{ending:?}");
+    let ending = world.islands(&format!("{settings} --out b --view off"));
+    assert_eq!(ending.code, Some(0), "{ending:?}");
+    assert!(!ending.stderr.contains("watch it live"), "{ending:?}");
+    assert!(world.path("b/recording.rrd").exists());
+}
+
+#[test]
+fn a_viewer_is_opened_if_it_is_there_and_of_the_right_version_and_otherwise_said_how_to_get() {
+    let world = World::new();
+    std::fs::create_dir(world.path("bin")).unwrap();
+    world.write("bin/rerun", "#!/bin/sh\necho 'rerun-cli 0.1.0'\n");
+    std::fs::set_permissions(world.path("bin/rerun"), PermissionsExt::from_mode(0o755)).unwrap();
+    world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
+    let replay = |path: &str| -> Ending {
+        let mut command = world.command("replay run/champion.csv --view spawn");
+        command.env("PATH", path).output().unwrap().into()
+    };
+    let nowhere = replay("/nowhere");
+    assert!(nowhere.stderr.contains("pip install rerun-sdk==0.36.3"), "{nowhere:?}");
+    let bin = world.path("bin").display().to_string();
+    let other = replay(&bin);
+    assert!(other.stderr.contains("is another version (rerun-cli 0.1.0)"), "{other:?}");
+    let right =
+        "#!/bin/sh\necho 'rerun-cli 0.36.3'\n[ \"$1\" = --version ] || echo \"$1\" > opened\n";
+    world.write("bin/rerun", right);
+    let found = replay(&bin);
+    assert_eq!((found.code, found.stderr.as_str()), (Some(0), ""), "{found:?}");
+    until("the viewer was opened", || world.path("opened").exists());
+    until("it was told what", || world.read("opened").trim() == "run/champion.rrd");
 }
 
 /// Writes a log of these records instead of the one that is there.
@@ -285,108 +302,4 @@ where
     let mut log = RecordLog::open(path).unwrap();
     log.truncate(0).unwrap();
     records.into_iter().for_each(|record| log.append(record).unwrap());
-}
-
-/// The positions and rotations of the links of one kind in a frame.
-type Frame = (Vec<[f32; 3]>, Vec<[f32; 4]>);
-
-struct Recording(Vec<Chunk>);
-
-impl Recording {
-    fn read(path: &Path) -> Self {
-        let file = BufReader::new(File::open(path).unwrap());
-        let messages = DecoderApp::decode_eager(file).unwrap().map(Result::unwrap);
-        let chunk = |message| match message {
-            LogMsg::ArrowMsg(store, arrow) if store.kind() == StoreKind::Recording => {
-                Some(Chunk::from_arrow_msg(&arrow).unwrap())
-            }
-            _ => None,
-        };
-        Self(messages.filter_map(chunk).collect())
-    }
-
-    /// Asserts that the last that is seen of an island's champion is this film of a trial, but for the
-    /// trial's very last moment: there the next clip would begin.
-    fn assert_ends_with(&self, island: u32, film: &Trajectory, task: Task) {
-        let trial = task.trial();
-        let end_s = trial.time_s(trial.steps());
-        let shown = film.times_s.iter().filter(|&&time_s| time_s < end_s).count();
-        for (name, shape) in [("boxes", "box"), ("cylinders", "cylinder")] {
-            let links: Vec<usize> =
-                (0..film.shapes.len()).filter(|&i| film.shapes[i].name() == shape).collect();
-            if links.is_empty() {
-                continue;
-            }
-            let expected = film.poses[..shown].iter().map(|poses| frame(poses, &links));
-            let frames = self.frames(&format!("/islands/{island}/champion/{name}"));
-            assert!(frames.len() >= shown, "{} frames of {name}", frames.len());
-            let last = &frames[frames.len() - shown..];
-            assert!(expected.eq(last.iter().cloned()), "island {island}, {name}");
-        }
-    }
-
-    /// Every frame of an entity, in the order of the film.
-    fn frames(&self, path: &str) -> Vec<Frame> {
-        let mut frames = Vec::new();
-        for chunk in self.chunks(path) {
-            let Some(centres) = component(chunk, ":centers") else { continue };
-            let rotations = component(chunk, ":quaternions").unwrap();
-            let centres = chunk.iter_slices::<[f32; 3]>(centres).map(<[_]>::to_vec);
-            let rotations = chunk.iter_slices::<[f32; 4]>(rotations).map(<[_]>::to_vec);
-            let rows = centres.zip(rotations);
-            frames.extend(times(chunk, "playback").iter().copied().zip(rows));
-        }
-        frames.sort_by_key(|&(time, _)| time);
-        frames.into_iter().map(|(_, frame)| frame).collect()
-    }
-
-    /// The generations and values of a curve.
-    fn scalars(&self, path: &str) -> Vec<(i64, f64)> {
-        let mut points = Vec::new();
-        for chunk in self.chunks(path) {
-            let Some(scalars) = component(chunk, ":scalars") else { continue };
-            let values = chunk.iter_slices::<f64>(scalars).map(|row| row[0]);
-            points.extend(times(chunk, "generation").iter().copied().zip(values));
-        }
-        points.sort_by_key(|&(generation, _)| generation);
-        points
-    }
-
-    /// The generations that every curve of each of so many islands has a point for, in order: the same ones.
-    fn generations(&self, islands: u32) -> Vec<i64> {
-        let curves = ["fitness/best", "fitness/mean", "diversity"];
-        let paths =
-            (0..islands).flat_map(|island| curves.map(|curve| format!("/{curve}/{island}")));
-        let all: BTreeSet<Vec<i64>> = paths
-            .map(|path| self.scalars(&path).into_iter().map(|(generation, _)| generation).collect())
-            .collect();
-        assert_eq!(all.len(), 1, "{all:?}");
-        all.into_iter().next().unwrap()
-    }
-
-    fn texts(&self, path: &str) -> Vec<String> {
-        let texts = self.chunks(path).filter_map(|chunk| Some((chunk, component(chunk, ":text")?)));
-        texts
-            .flat_map(|(chunk, text)| chunk.iter_slices::<String>(text).flatten())
-            .map(|text| text.to_string())
-            .collect()
-    }
-
-    fn chunks<'a>(&'a self, path: &'a str) -> impl Iterator<Item = &'a Chunk> {
-        let here =
-            move |chunk: &&Chunk| chunk.entity_path().to_string() == path && !chunk.is_static();
-        self.0.iter().filter(here)
-    }
-}
-
-fn frame(poses: &[Pose], links: &[usize]) -> Frame {
-    links.iter().map(|&link| (poses[link].position_m, poses[link].rotation_xyzw)).unzip()
-}
-
-fn component(chunk: &Chunk, ending: &str) -> Option<rerun::ComponentIdentifier> {
-    chunk.components_identifiers().find(|component| component.as_str().ends_with(ending))
-}
-
-fn times<'a>(chunk: &'a Chunk, timeline: &str) -> &'a [i64] {
-    chunk.timelines().values().find(|found| found.name() == timeline).unwrap().times_raw()
 }

@@ -45,6 +45,7 @@ fn a_run_leaves_the_files_of_its_folder_and_no_others() {
     expected.extend(cfg!(feature = "view").then(|| dir.recording()));
     for island in 0..2 {
         expected.extend([dir.champions(island), dir.migrations(island), dir.reports(island)]);
+        expected.push(dir.lineages(island));
         expected.extend([dir.checkpoint(island, 2), dir.checkpoint(island, 3)]);
     }
     let files: BTreeSet<String> = world.files().into_iter().collect();

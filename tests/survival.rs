@@ -171,8 +171,9 @@ fn without_a_whole_checkpoint_an_island_starts_again_from_the_seed() {
 #[test]
 fn damaged_logs_are_evolved_again_too() {
     type Log = fn(&RunDir) -> std::path::PathBuf;
-    let logs: [(&str, Log); 3] = [
+    let logs: [(&str, Log); 4] = [
         ("reports", |dir| dir.reports(1)),
+        ("lineages", |dir| dir.lineages(1)),
         ("migrations", |dir| dir.migrations(1)),
         ("champions", |dir| dir.champions(1)),
     ];

@@ -3,9 +3,9 @@
 mod tools;
 
 use crate::support::{TINY, World, until};
-use islands::archipelago::{Champion, Outbox};
+use islands::archipelago::{Births, Champion, Outbox};
 use islands::creature::Gene;
-use islands::evolution::Fitness;
+use islands::evolution::{Fitness, Id};
 use islands::store::{Checkpoint, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::fs;
@@ -41,8 +41,9 @@ fn a_sound_run_is_verified_with_its_digest() {
 #[test]
 fn a_flipped_bit_is_found_in_every_file_that_has_a_checksum() {
     let world = evolved();
-    let files: [fn(&RunDir) -> PathBuf; 5] = [
+    let files: [fn(&RunDir) -> PathBuf; 6] = [
         |dir| dir.champions(0),
+        |dir| dir.lineages(1),
         |dir| dir.reports(1),
         |dir| dir.migrations(0),
         |dir| dir.checkpoint(0, 3),
@@ -56,7 +57,7 @@ fn a_flipped_bit_is_found_in_every_file_that_has_a_checksum() {
         finds(&world, file, |dir| cut(&file(dir), 1));
         finds(&world, file, |dir| lengthen(&file(dir)));
     }
-    for file in &files[..4] {
+    for file in &files[..5] {
         finds(&world, file, |dir| fs::remove_file(file(dir)).unwrap());
     }
 }
@@ -100,10 +101,10 @@ fn a_genome_that_cannot_have_lived_is_a_mismatch_and_not_simulated() {
                 wrong(&mut champions[0].individual.genome);
             });
         });
-        let ending = verify(&world, "changed --json");
-        assert_eq!(ending.code, Some(1), "{ending:?}");
-        assert!(ending.stderr.contains("has a genome that cannot have lived"), "{ending:?}");
-        let verdict = ending.json();
+        let table = verify(&world, "changed");
+        assert_eq!(table.code, Some(1), "{table:?}");
+        assert!(table.stdout.contains("has a genome that cannot have lived"), "{table:?}");
+        let verdict = verify(&world, "changed --json").json();
         assert_eq!(verdict["mismatches"][0]["found"], Value::Null, "{verdict}");
     }
 }
@@ -115,10 +116,17 @@ fn residents_and_migrants_are_simulated_again_if_that_is_asked_for() {
     let dir = changed(&world, |dir| {
         fs::remove_file(dir.summary()).unwrap();
         (0..2).for_each(|island| fs::remove_file(dir.checkpoint(island, 3)).unwrap());
+        let mut forged = None;
         forge_state(dir, 1, 2, |saved| {
-            let champion = saved.island.champion.fitness;
-            let worse = saved.island.population.iter_mut().find(|i| i.fitness < champion);
-            a_bit_more(&mut worse.unwrap().fitness);
+            let born = saved.island.population.iter_mut().filter(|one| one.id.generation == 2);
+            let worse = born.min_by_key(|one| one.fitness).unwrap();
+            a_bit_more(&mut worse.fitness);
+            forged = Some(worse.id);
+        });
+        // Nor must the records contradict it.
+        let Id { island, generation, index } = forged.unwrap();
+        forge(&dir.lineages(island), |log: &mut Vec<Births>| {
+            a_bit_more(&mut log[generation as usize].births[index as usize].fitness);
         });
         forge(&dir.migrations(0), |outboxes: &mut Vec<Outbox<Gene>>| {
             let worst = &mut outboxes[2].migrants[1].fitness;
@@ -163,6 +171,16 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
     for wrong in champions {
         finds(&world, |dir| dir.champions(1), |dir| forge(&dir.champions(1), wrong));
     }
+    let lineages: [fn(&mut Vec<Births>); 5] = [
+        |log| log.swap(1, 2),
+        |log| log[2].births.truncate(1),
+        |log| log[2].births[0].parents = [None; 2],
+        |log| log[1].births[0].parents[0].as_mut().unwrap().generation = 1,
+        |log| a_bit_more(&mut log[3].births[0].fitness),
+    ];
+    for wrong in lineages {
+        finds(&world, |dir| dir.lineages(1), |dir| forge(&dir.lineages(1), wrong));
+    }
     let outboxes: [fn(&mut Outboxes); 5] = [
         |outboxes| outboxes.swap(0, 1),
         |outboxes| outboxes[1].migrants.truncate(1),
@@ -173,6 +191,20 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
     for wrong in outboxes {
         finds(&world, |dir| dir.migrations(1), |dir| forge(&dir.migrations(1), wrong));
     }
+}
+
+#[test]
+fn a_champion_whom_its_ancestors_cannot_have_bred_is_found_without_simulating_anything() {
+    let world = evolved();
+    let forge_genome = |dir: &RunDir| {
+        let change = |champions: &mut Vec<Champion<Gene>>| {
+            champions[0].individual.genome[0].0[0] = 0.123;
+        };
+        forge(&dir.champions(0), change);
+    };
+    let verdict = finds(&world, |dir| dir.champions(0), forge_genome);
+    let said = verdict["damaged"][0].as_str().unwrap();
+    assert!(said.contains("the ancestors of 0.0.") && said.contains(" breed another"), "{said}");
 }
 
 #[test]

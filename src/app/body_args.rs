@@ -2,7 +2,7 @@
 
 use crate::choice;
 use crate::creature::scales::Rescaling;
-use crate::creature::{Profile, Reading};
+use crate::creature::{Profile, Scales};
 use crate::problems::Task;
 use crate::simulation::Engine;
 use clap::Args;
@@ -30,11 +30,10 @@ pub struct ChangeArgs {
     pub drop_columns: Vec<usize>,
 }
 
-impl ReadArgs {
-    /// What the numbers of a gene mean.
-    pub fn reading(&self) -> Reading {
-        let scales = self.changes.scales.iter().cloned().collect();
-        Reading { profile: self.profile, scales }
+impl ChangeArgs {
+    /// The scales that are changed.
+    pub fn scales(&self) -> Scales {
+        self.scales.iter().cloned().collect()
     }
 }
 

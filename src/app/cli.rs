@@ -4,6 +4,10 @@ use super::body_args::ChangeArgs;
 pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
 use super::config::FREE;
 use super::settings::SettingArgs;
+use crate::choice;
+use crate::creature::Profile;
+use crate::problems::Task;
+use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -19,7 +23,7 @@ use std::path::PathBuf;
   islands run --n 4 --seed 7         the same, with a seed that fixes the result to the last bit
   islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
-  islands replay champion.csv --out walk.rrd && rerun walk.rrd
+  islands replay runs/walk-seed7 --ancestry --view spawn
   islands export champion.csv --format urdf --out walker.urdf
   islands import elites/ --out genomes && islands run --profile coursework --seed-genomes genomes"
 )]
@@ -74,7 +78,7 @@ pub enum Command {
     Evaluate(EvaluateArgs),
     /// Show the body that a genome or a URDF describes
     Inspect(InspectArgs),
-    /// Film genomes, and bodies from URDF, for the Rerun viewer
+    /// Film genomes, bodies from URDF, or the creatures of a run, for the Rerun viewer
     Replay(ReplayArgs),
     /// Take in genomes of the course, whatever state their files are in
     Import(ImportArgs),
@@ -140,16 +144,60 @@ pub struct OutputArgs {
     /// Record and serve nothing; every other file is written all the same
     #[arg(long, help_heading = "Running")]
     pub no_monitor: bool,
-    /// Serve the live view on this address of the machine. Who can reach it can watch, without a password,
-    /// and show something else to others who watch: on any but 127.0.0.1 that may be many
-    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
-    pub view_address: IpAddr,
+    #[command(flatten)]
+    pub view: ViewArgs,
     /// Show no progress
     #[arg(long, help_heading = "Running")]
     pub quiet: bool,
     /// Print the result as one JSON object, the last line of standard output
     #[arg(long, help_heading = "Running")]
     pub json: bool,
+}
+
+/// How a run is watched while it goes on.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct ViewArgs {
+    /// Who can watch while it goes on: live (whoever attaches a viewer), spawn (the same, and a viewer opens)
+    /// or off (nobody: it is only recorded)
+    #[arg(long, value_name = "HOW", default_value_t, help_heading = "Running")]
+    pub view: Watching,
+    /// Serve the live view on this port, or on one of the next if it is taken [default: 9876]
+    #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Running")]
+    pub view_port: Option<u16>,
+    /// Serve the live view on this address of the machine. Who can reach it can watch, without a password,
+    /// and show something else to others who watch: on any but 127.0.0.1 that may be many
+    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
+    pub view_address: IpAddr,
+}
+
+/// Who can watch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Watching {
+    /// Whoever attaches a viewer.
+    #[default]
+    Live,
+    /// The same, and a viewer is opened.
+    Spawn,
+    /// Nobody.
+    Off,
+}
+
+impl std::fmt::Display for Watching {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Watching::Live => "live",
+            Watching::Spawn => "spawn",
+            Watching::Off => "off",
+        })
+    }
+}
+
+impl std::str::FromStr for Watching {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("view", &[Watching::Live, Watching::Spawn, Watching::Off], text)
+    }
 }
 
 /// Scoring.
@@ -173,15 +221,45 @@ pub struct EvaluateArgs {
 
 /// Filming.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  islands replay champion.csv --view spawn          one creature, in a viewer
+  islands replay a.csv b.csv c.urdf --out race.rrd  three of them race
+  islands replay runs/walk-seed7                    a run's champions through the generations
+  islands replay runs/walk-seed7 --ancestry         the ancestors of its best, from generation 0 to the champion")]
 pub struct ReplayArgs {
-    /// Files of genomes or bodies; several of them race
-    #[arg(required = true, value_name = "GENOME.csv|BODY.urdf")]
-    pub genomes: Vec<PathBuf>,
-    /// The recording to write
+    /// Files of genomes or bodies, several of which race, or the folder of a run
+    #[arg(required = true, value_name = "GENOME.csv|BODY.urdf|RUN_DIR")]
+    pub what: Vec<PathBuf>,
+    /// Of a run, the ancestors of its best creature instead of its champions
+    #[arg(long)]
+    pub ancestry: bool,
+    /// Of a run, so many creatures, picked evenly: the first, the last and some between
+    #[arg(long, default_value_t = 12, value_name = "C", value_parser = clap::value_parser!(u32).range(2..=64))]
+    pub clips: u32,
+    /// Let them move for so long instead of the task's time [default: as the task]
+    #[arg(long, value_name = "S")]
+    pub seconds: Option<f64>,
+    /// The recording to write [default: beside the file, or in the run's folder]
     #[arg(long, value_name = "FILE.rrd")]
-    pub out: PathBuf,
+    pub out: Option<PathBuf>,
+    /// Whether a viewer opens: spawn or off
+    #[arg(long, value_name = "HOW", default_value = "off")]
+    pub view: Watching,
+    /// What the creatures have to do: walk, travel or course [default: walk, or as in the run]
+    #[arg(long)]
+    pub task: Option<Task>,
+    /// How genes are read: native, lecture or coursework [default: native, or as in the run]
+    #[arg(long)]
+    pub profile: Option<Profile>,
     #[command(flatten)]
-    pub trial: TrialArgs,
+    pub changes: ChangeArgs,
+    /// What moves the bodies: rapier (the engine of record) or featherstone (several times as
+    /// fast) [default: rapier, or as in the run]
+    #[arg(long)]
+    pub engine: Option<Engine>,
+    /// No body gets more links than this, but for profile coursework [default: 32, or as in the run]
+    #[arg(long, value_name = "L")]
+    pub max_links: Option<usize>,
 }
 
 /// Watching.
@@ -190,10 +268,11 @@ pub struct MonitorArgs {
     /// Folder of a run, under way or over
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
-    /// Serve the live view on this address of the machine: on any but 127.0.0.1 everybody who reaches it can
-    /// watch, and show something else to the others who watch, without a password
-    #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into())]
-    pub view_address: IpAddr,
+    #[command(flatten)]
+    pub view: ViewArgs,
+    /// Generations between two clips of an island's champion [default: as in the run]
+    #[arg(long, value_name = "G", value_parser = clap::value_parser!(u32).range(1..))]
+    pub clip_every: Option<u32>,
     /// The process that started this one and without which it ends
     #[arg(long, hide = true)]
     pub parent: Option<i32>,

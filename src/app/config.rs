@@ -29,7 +29,7 @@ pub const THREADS_MAX: usize = 4_096;
 
 /// The settings that do not decide what evolves, only how long and how it is run: a run that goes on may have
 /// other ones.
-pub const FREE: [&str; 3] = ["generations", "threads", "checkpoint-interval"];
+pub const FREE: [&str; 4] = ["generations", "threads", "checkpoint-interval", "clip-every"];
 
 /// The largest configuration file, in bytes; ours have a thousand.
 pub const FILE_BYTES_MAX: usize = 1 << 20;
@@ -86,6 +86,9 @@ pub struct Config {
     /// Generations between two checkpoints of an island; its first and last state are always saved. The result
     /// does not depend on it.
     pub checkpoint_interval: u32,
+    /// Generations between two clips of each island's champion in the film; a twelfth of all of them if none is
+    /// said. The result does not depend on it.
+    pub clip_every: Option<u32>,
     /// Threads of all islands together, at least one each; as many as there are cores if none is said. The result
     /// does not depend on it.
     pub threads: Option<usize>,
@@ -134,6 +137,7 @@ impl Default for Config {
             migrants: 2,
             migration_lag: 1,
             checkpoint_interval: 1,
+            clip_every: None,
             threads: None,
             scales: Scales::NONE,
             seed_genomes: None,
@@ -226,6 +230,7 @@ impl Config {
         within("migration-interval", f64::from(self.migration_interval), 1.0, 1e9)?;
         within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
         within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
+        within("clip-every", f64::from(self.clip_every.unwrap_or(1)), 1.0, 1e9)?;
         within("generations", f64::from(self.generations), 0.0, 1e9)?;
         let threads = self.threads.unwrap_or(1);
         within("threads", threads as f64, 1.0, THREADS_MAX as f64)
@@ -370,6 +375,7 @@ mod tests {
             Config { point_rate: f64::NAN, ..sound.clone() },
             Config { migration_interval: 0, ..sound.clone() },
             Config { threads: Some(0), ..sound.clone() },
+            Config { clip_every: Some(0), ..sound.clone() },
             Config { threads: Some(usize::MAX), ..sound.clone() },
             Config { seed: Some(u64::MAX), ..sound.clone() },
         ] {

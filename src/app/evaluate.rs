@@ -44,7 +44,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         )));
     }
     let problem = args.trial.problem()?;
-    let read = |path: &PathBuf| genomes::read(path, &args.trial.read);
+    let read = |path: &PathBuf| genomes::read(path, &args.trial.read.changes);
     let genomes: Vec<Vec<Gene>> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))

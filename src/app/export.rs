@@ -25,7 +25,7 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     if !SIZES.contains(&args.size) {
         return Err(Failure::usage("--size must be from 0.000001 to 1000000"));
     }
-    let specimen = Specimen::read(&args.genome, &args.trial.read)?;
+    let specimen = Specimen::read(&args.genome, &args.trial.read.changes)?;
     if args.format == Format::Csv {
         return export_genome(args, &specimen);
     }

@@ -1,12 +1,13 @@
 //! Genome and body files that the user names.
 
 use super::Failure;
+use super::body_args::ChangeArgs;
 use super::cli::{ReadArgs, TrialArgs};
 use super::config::LINKS_MAX;
 use super::console::say;
 use super::table::harmless;
 use crate::creature::gene::PARAMETER_COUNT;
-use crate::creature::{Creature, Gene, Reading};
+use crate::creature::{Creature, Gene, Profile, Reading, Scales};
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{ReadGenome, genome_csv};
 use crate::problems::Locomotion;
@@ -35,8 +36,8 @@ impl Specimen {
     ///
     /// # Errors
     /// One sentence that names the file and what to do.
-    pub fn read(path: &Path, args: &ReadArgs) -> Result<Self, Failure> {
-        let dropped = dropped(&args.changes.drop_columns)?;
+    pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Self, Failure> {
+        let dropped = dropped(&changes.drop_columns)?;
         let bytes = bytes(path)?;
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
         if text.trim_ascii_start().first() == Some(&b'<') {
@@ -70,8 +71,8 @@ impl Specimen {
 ///
 /// # Errors
 /// One sentence that names the file and what to do.
-pub fn read(path: &Path, args: &ReadArgs) -> Result<Vec<Gene>, Failure> {
-    genome(&bytes(path)?, path, dropped(&args.changes.drop_columns)?)
+pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Vec<Gene>, Failure> {
+    genome(&bytes(path)?, path, dropped(&changes.drop_columns)?)
 }
 
 /// Reads a genome; what could not be read is for the caller to say.
@@ -154,10 +155,17 @@ impl ReadArgs {
     /// # Errors
     /// One sentence that says what to change.
     pub fn checked(&self) -> Result<Reading, Failure> {
-        let reading = self.reading();
-        let fine = reading.scales.check(reading.profile);
-        fine.map(|()| reading).map_err(|error| Failure::usage(error.to_string()))
+        reading(self.profile, self.changes.scales())
     }
+}
+
+/// A profile with changed scales, if it has such.
+///
+/// # Errors
+/// One sentence that says what to change.
+pub fn reading(profile: Profile, scales: Scales) -> Result<Reading, Failure> {
+    let fine = scales.check(profile);
+    fine.map(|()| Reading { profile, scales }).map_err(|error| Failure::usage(error.to_string()))
 }
 
 impl TrialArgs {

@@ -16,7 +16,7 @@ use std::path::Path;
 /// If it cannot be read or expressed.
 pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     let (links_max, reading) = (genomes::links_max(args.max_links)?, args.read.checked()?);
-    match Specimen::read(&args.genome, &args.read)? {
+    match Specimen::read(&args.genome, &args.read.changes)? {
         Specimen::Body(body) if args.json => {
             print(&json(&BodyInspection::new(&body, source(&args.genome))));
         }

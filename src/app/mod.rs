@@ -5,7 +5,8 @@
 //! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
 //! `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export` takes them
-//! elsewhere; `seeds` are genomes that a run begins with. `console` prints and reads the clock, `table` lays out.
+//! elsewhere; `seeds` are genomes that a run begins with. `pedigree` puts ancestries into words, and `viewer` opens a
+//! viewer. `console` prints and reads the clock, `table` lays out.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
@@ -23,6 +24,8 @@ mod inspect;
 mod island;
 mod kinship;
 mod monitor;
+#[cfg(feature = "view")]
+mod pedigree;
 mod replay;
 mod result;
 mod run;
@@ -30,6 +33,8 @@ mod seeds;
 mod settings;
 mod table;
 mod verify;
+#[cfg(feature = "view")]
+mod viewer;
 
 use crate::store::{RunDir, StoreError};
 use cli::Command;

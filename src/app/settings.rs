@@ -76,6 +76,10 @@ pub struct SettingArgs {
     /// Generations between two checkpoints of an island: what a crash costs at most [default: 1]
     #[arg(long, value_name = "G", help_heading = "Running")]
     pub checkpoint_interval: Option<u32>,
+    /// Generations between two clips of an island's champion in the film: fewer make it longer and larger
+    /// [default: a twelfth of all]
+    #[arg(long, value_name = "G", help_heading = "Running")]
+    pub clip_every: Option<u32>,
     /// Threads of all islands together, at least one each; the result does not depend on it
     /// [default: all cores]
     #[arg(long, value_name = "T", help_heading = "Running")]
@@ -108,6 +112,7 @@ impl SettingArgs {
             migrants: self.migrants.unwrap_or(config.migrants),
             migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
             checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
+            clip_every: self.clip_every.or(config.clip_every),
             threads: self.threads.or(config.threads),
             scales: config.scales,
             seed_genomes: config.seed_genomes,
@@ -128,7 +133,7 @@ mod tests {
             --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
-            --checkpoint-interval 9 --threads 9 --engine featherstone";
+            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

@@ -2,7 +2,7 @@
 //!
 //! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
 //! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
-//! sees it: state machines without a channel, a clock or a file; [`soundness`] says what of a file can be
+//! sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!
@@ -12,6 +12,7 @@
 pub mod digest;
 pub mod inbox;
 pub mod island;
+pub mod lineage;
 pub mod lockstep;
 pub mod migration;
 pub mod soundness;
@@ -24,6 +25,7 @@ mod tests;
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};
+pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
 pub use soundness::Misfit;
 pub use topology::Topology;

@@ -89,16 +89,26 @@ pub fn genesis<P: Problem>(
     let moment = Moment { source, generation: 0 };
     (0..strategy.population)
         .map(|index| {
-            let founder = problem.founder(source.island, index, strategy.population);
-            let genome = founder.unwrap_or_else(|| {
-                let mut rng = source.stream(0, index as u32, Purpose::Genesis);
-                let mut genome = problem.random_genome(&mut rng);
-                genome.truncate(strategy.variation.genes_max);
-                genome
-            });
+            let genome = first(problem, strategy, source, index);
             Offspring { id: moment.id(index), parents: [None; 2], genome }
         })
         .collect()
+}
+
+/// Genome number `index` of generation 0: a founder's or, where there is none, a random one.
+pub fn first<P: Problem>(
+    problem: &P,
+    strategy: &Strategy,
+    source: Source,
+    index: usize,
+) -> Vec<P::Gene> {
+    let founder = problem.founder(source.island, index, strategy.population);
+    founder.unwrap_or_else(|| {
+        let mut rng = source.stream(0, index as u32, Purpose::Genesis);
+        let mut genome = problem.random_genome(&mut rng);
+        genome.truncate(strategy.variation.genes_max);
+        genome
+    })
 }
 
 /// Phase: picks the parents of each offspring, two indices into the population.
@@ -127,22 +137,36 @@ pub fn vary<P: Problem>(
     strategy: &Strategy,
     moment: Moment,
 ) -> Vec<Offspring<P::Gene>> {
-    let Moment { source, generation } = moment;
     let offspring = |(index, &[a, b]): (usize, &[usize; 2])| {
-        let stream = |purpose| source.stream(generation, index as u32, purpose);
         let (mother, father) = (&population[a], &population[b]);
-        let mut crossing = stream(Purpose::Crossover);
-        let two_parents = happens(strategy.variation.crossover_rate, &mut crossing);
-        let mut genome = if two_parents {
-            problem.crossover(&mother.genome, &father.genome, &strategy.variation, &mut crossing)
-        } else {
-            mother.genome.clone()
-        };
-        problem.mutate(&mut genome, &strategy.variation, &mut stream(Purpose::Mutation));
+        let (genome, two_parents) =
+            breed(problem, strategy, moment, index, &mother.genome, &father.genome);
         let parents = [Some(mother.id), two_parents.then_some(father.id)];
         Offspring { id: moment.id(index), parents, genome }
     };
     couples.iter().enumerate().map(offspring).collect()
+}
+
+/// The genome of offspring number `index` of a couple, and whether it has two parents. It depends on nothing
+/// else, so that whoever knows all ancestors of an individual can breed it again.
+pub fn breed<P: Problem>(
+    problem: &P,
+    strategy: &Strategy,
+    moment: Moment,
+    index: usize,
+    mother: &[P::Gene],
+    father: &[P::Gene],
+) -> (Vec<P::Gene>, bool) {
+    let stream = |purpose| moment.source.stream(moment.generation, index as u32, purpose);
+    let variation = &strategy.variation;
+    let mut crossing = stream(Purpose::Crossover);
+    let two_parents = happens(variation.crossover_rate, &mut crossing);
+    let mut genome = match two_parents {
+        true => problem.crossover(mother, father, variation, &mut crossing),
+        false => mother.to_vec(),
+    };
+    problem.mutate(&mut genome, variation, &mut stream(Purpose::Mutation));
+    (genome, two_parents)
 }
 
 /// A brood that was scored.

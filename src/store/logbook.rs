@@ -1,12 +1,12 @@
 //! All that an island leaves on disk, and how it finds its way back from there.
 //!
-//! The order of writing is what makes any moment a good one to die: first a generation's champion and report
-//! and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a
+//! The order of writing is what makes any moment a good one to die: first a generation's champion, births
+//! and report and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a
 //! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same.
 
 use super::checkpoint::Checkpoint;
 use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
-use crate::archipelago::{Archipelago, Champion, Island, Outbox, Report, Step};
+use crate::archipelago::{Archipelago, Births, Champion, Island, Outbox, Report, Step};
 use crate::evolution::Gene;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -27,6 +27,7 @@ pub struct Logbook<G> {
     checkpoints: Checkpoints,
     journal: Journal<G>,
     champions: RecordLog<Champion<G>>,
+    lineages: RecordLog<Births>,
     reports: RecordLog<Entry>,
 }
 
@@ -58,6 +59,7 @@ impl<G: Gene> Logbook<G> {
             checkpoints: Checkpoints::of(dir, index),
             journal: Journal::open(&dir.migrations(index))?,
             champions: RecordLog::open(&dir.champions(index))?,
+            lineages: RecordLog::open(&dir.lineages(index))?,
             reports: RecordLog::open(&dir.reports(index))?,
         };
         let (island, warnings) = logbook.newest_state(archipelago)?;
@@ -71,6 +73,7 @@ impl<G: Gene> Logbook<G> {
     /// If the disk is full or gone, or an epoch that is evolved again comes out otherwise.
     pub fn record(&mut self, step: &Step<G>, seconds: f64) -> Result<(), StoreError> {
         step.champion.iter().try_for_each(|champion| self.champions.append(champion))?;
+        self.lineages.append(&Births::of(&step.island))?;
         self.reports.append(&Entry { report: step.report, seconds })?;
         step.outbox.iter().try_for_each(|outbox| self.journal.append(outbox))
     }
@@ -142,6 +145,9 @@ impl<G: Gene> Logbook<G> {
         if self.reports.len() <= generation as usize {
             return lacks("reports");
         }
+        if self.lineages.len() <= generation as usize {
+            return lacks("lineages");
+        }
         if self.journal.epochs() < generation / archipelago.migration.interval {
             return lacks("migrations");
         }
@@ -158,6 +164,8 @@ impl<G: Gene> Logbook<G> {
         let is_kept = |of: u32| generation.is_some_and(|generation| of <= generation);
         let champions = self.champions.last_that(|champion| is_kept(champion.generation))?;
         self.champions.truncate(champions.map_or(0, |(last, _)| last + 1))?;
-        self.reports.truncate(generation.map_or(0, |generation| generation as usize + 1))
+        let generations = generation.map_or(0, |generation| generation as usize + 1);
+        self.lineages.truncate(generations)?;
+        self.reports.truncate(generations)
     }
 }

@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 /// panic-<i>.<generation>.<k>.csv          a genome whose evaluation panicked on island i: a bug
 /// champions/island-<i>.log                every champion of an island
 /// reports/island-<i>.log                  what every generation of an island was like
+/// lineages/island-<i>.log                 who was born of whom on an island, generation by generation
 /// migrations/island-<i>.log               every outbox that an island sent
 /// checkpoints/island-<i>/<generation>.ckpt   an island's state: the newest two
 /// .partial/                               what is not whole yet, while a launcher is at work
@@ -161,6 +162,11 @@ impl RunDir {
         self.0.join("reports").join(format!("island-{island}.log"))
     }
 
+    /// Who was born on an island, of whom.
+    pub fn lineages(&self, island: u32) -> PathBuf {
+        self.0.join("lineages").join(format!("island-{island}.log"))
+    }
+
     /// An island's journal.
     pub fn migrations(&self, island: u32) -> PathBuf {
         self.0.join("migrations").join(format!("island-{island}.log"))
@@ -189,7 +195,8 @@ impl Claim {
     /// If they cannot be made, or are links, which may lead out of the run's folder.
     pub fn make_folders(&self, islands: u32) -> Result<(), StoreError> {
         let RunDir(root) = &self.dir;
-        let folders = ["champions", "reports", "migrations", "checkpoints"].map(|f| root.join(f));
+        let folders = ["champions", "lineages", "reports", "migrations", "checkpoints"];
+        let folders = folders.map(|folder| root.join(folder));
         let checkpoints = (0..islands).map(|island| self.dir.checkpoints(island));
         let partial = [self.dir.partial()];
         folders.into_iter().chain(partial).chain(checkpoints).try_for_each(|f| make(&f))?;

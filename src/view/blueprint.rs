@@ -1,15 +1,15 @@
 //! The arrangement of the viewer.
 
-use super::card::RunCard;
-use super::{PLAYBACK, ViewError, palette, scenery};
+use super::card::{Program, RunCard};
+use super::{GENERATION, PLAYBACK, ViewError, palette};
 use rerun::blueprint::{
     BarChartView, Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, GraphView, Grid,
-    Horizontal, SelectionPanel, Spatial3DView, Tabs, TextDocumentView, TextLogView, TimePanel,
-    TimeSeriesView, Vertical,
+    Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
+    TextLogView, TimePanel, TimeSeriesView, Vertical,
 };
 use rerun::external::re_log_types::BlueprintActivationCommand;
 use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns,
+    Background, EyeControls3D, LineGrid3D, PlotLegend, TextLogColumns, TimeAxis,
 };
 use rerun::external::re_sdk_types::blueprint::components::{
     BackgroundKind, Corner2D, LoopMode, PanelState, PlayState,
@@ -17,6 +17,7 @@ use rerun::external::re_sdk_types::blueprint::components::{
 use rerun::external::re_sdk_types::blueprint::datatypes::{
     TextLogColumn, TextLogColumnKind, TimelineColumn,
 };
+use rerun::external::re_sdk_types::datatypes::{TimeRange, TimeRangeBoundary};
 use rerun::log::LogMsg;
 use rerun::{
     ApplicationId, AsComponents, EntityPath, RecordingStreamBuilder, SerializedComponentBatch,
@@ -34,6 +35,9 @@ pub enum Audience {
 
 /// More views than this on one page are too small to see anything.
 const VIEWS_PER_PAGE: u32 = 9;
+
+/// The legend of more curves than this hides them.
+const LEGEND_MAX: u32 = 6;
 
 /// A blueprint as messages for a sink.
 pub fn messages(
@@ -68,6 +72,22 @@ pub fn messages(
     Ok((messages, activation))
 }
 
+/// An eye beside a champion, a little ahead, in a frame as large as its body.
+fn companion() -> EyeControls3D {
+    EyeControls3D::new()
+        .with_position([0.95, -1.85, 0.8])
+        .with_look_target([0.05, 0.0, 0.02])
+        .with_eye_up([0.0, 0.0, 1.0])
+}
+
+/// From the beginning to the end, wherever the film is.
+fn whole_film() -> TimeAxis {
+    TimeAxis::new().with_view_range(TimeRange {
+        start: TimeRangeBoundary::Infinite,
+        end: TimeRangeBoundary::Infinite,
+    })
+}
+
 fn clock(audience: Audience) -> TimePanel {
     let loop_mode = match audience {
         Audience::File => LoopMode::All,
@@ -89,49 +109,67 @@ struct Layout {
 impl Layout {
     /// The left side: creatures.
     fn stages(&mut self, card: &RunCard) -> ContainerLike {
-        let islands: Vec<u32> = (0..card.islands).collect();
-        let pages: Vec<_> = islands.chunks(VIEWS_PER_PAGE as usize).collect();
-        let mut tabs: Vec<ContainerLike> = Vec::new();
-        for page in &pages {
-            let name = match (page, pages.len()) {
-                (_, 1) => "Champions".to_owned(),
-                (page, _) => format!("Islands {}–{}", page[0], page[page.len() - 1]),
-            };
-            let columns = (page.len() as f64).sqrt().ceil() as u32;
-            let views: Vec<_> = page.iter().map(|&island| self.island(island)).collect();
-            tabs.push(Grid::new(views).with_name(name).with_grid_columns(columns).into());
-        }
+        let mut tabs = match card.program {
+            Program::Run | Program::Race => self.pages(card),
+            Program::Line => vec![self.line(card)],
+        };
         tabs.push(self.race(card));
+        if card.has_family {
+            tabs.push(GraphView::new("Family").with_origin("family").into());
+        }
         Tabs::new(tabs).into()
     }
 
-    fn island(&mut self, island: u32) -> ContainerLike {
-        let view = Spatial3DView::new(format!("Island {island}"))
-            .with_origin(format!("islands/{island}/follow"))
-            .with_contents([
-                format!("+ /islands/{island}/**"),
-                format!("- /islands/{island}/lane"),
-                format!("- /islands/{island}/follow/flag"),
-            ]);
-        let eye = EyeControls3D::new()
-            .with_position([1.15, -1.92, 0.85])
-            .with_look_target([0.0, 0.0, 0.05])
-            .with_eye_up([0.0, 0.0, 1.0]);
-        self.stage(view, &eye)
+    /// Each lane in a view of its own.
+    fn pages(&mut self, card: &RunCard) -> Vec<ContainerLike> {
+        let lanes: Vec<u32> = (0..card.lane_count()).collect();
+        let pages: Vec<_> = lanes.chunks(VIEWS_PER_PAGE as usize).collect();
+        let name = |page: &[u32]| match pages.len() {
+            1 => "Champions".to_owned(),
+            _ => format!("Champions {}–{}", page[0], page[page.len() - 1]),
+        };
+        let page = |page: &&[u32]| {
+            let columns = (page.len() as f64).sqrt().ceil() as u32;
+            let views: Vec<_> = page.iter().map(|&lane| self.lane(card, lane)).collect();
+            Grid::new(views).with_name(name(page)).with_grid_columns(columns).into()
+        };
+        pages.iter().map(page).collect()
     }
 
-    /// All islands' lanes side by side.
+    fn lane(&mut self, card: &RunCard, lane: u32) -> ContainerLike {
+        let view = Spatial3DView::new(card.lanes[lane as usize].title.as_str())
+            .with_origin(format!("islands/{lane}/follow"))
+            .with_contents([
+                format!("+ /islands/{lane}/**"),
+                format!("- /islands/{lane}/follow/flag"),
+            ]);
+        self.stage(view, &companion())
+    }
+
+    /// Who is on its way, among those who came before.
+    fn line(&mut self, card: &RunCard) -> ContainerLike {
+        let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/lanes/**".to_owned()];
+        contents.extend((0..card.lane_count()).flat_map(|lane| {
+            ["ground", "follow/flag"].map(|name| format!("- /islands/{lane}/{name}"))
+        }));
+        let view = Spatial3DView::new("One by one").with_origin("line/follow");
+        self.stage(view.with_contents(contents), &companion())
+    }
+
+    /// All lanes side by side, seen from the right.
     fn race(&mut self, card: &RunCard) -> ContainerLike {
+        let lanes = card.lane_count();
         let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/**".to_owned()];
-        contents.extend((0..card.islands).flat_map(|island| {
-            ["ground", "follow/marker"].map(|name| format!("- /islands/{island}/{name}"))
+        contents.extend((0..lanes).flat_map(|lane| {
+            ["ground", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
         let view = Spatial3DView::new("Race").with_origin("/").with_contents(contents);
-        let middle = scenery::middle_y(card.islands);
-        let width = scenery::LANE_M * card.islands as f32;
+        let (middle, width) = (card.track().middle_y(), card.track().width_m());
+        // The more lanes, the more from above.
+        let above = 0.5 + 0.02 * width.min(20.0);
         let eye = EyeControls3D::new()
-            .with_position([-0.45 * width - 2.0, middle - 0.38 * width - 1.0, 0.42 * width + 2.0])
-            .with_look_target([2.0, middle, 0.0])
+            .with_position([2.4 - 0.1 * width, middle - 0.7 * width - 3.0, above * width + 2.4])
+            .with_look_target([3.2, middle - 0.04 * width, 0.0])
             .with_eye_up([0.0, 0.0, 1.0]);
         self.stage(view, &eye)
     }
@@ -148,27 +186,55 @@ impl Layout {
 
     /// The right side: numbers and words.
     fn figures(&mut self, card: &RunCard) -> ContainerLike {
+        let run = TextDocumentView::new("Run").with_origin("run").into();
         let unit = &card.unit;
-        let best = self.curves(format!("Best fitness ({unit})"), "fitness/best", Corner2D::LeftTop);
-        let mean = self.curves(format!("Mean fitness ({unit})"), "fitness/mean", Corner2D::LeftTop);
-        let diversity = self.curves("Diversity".into(), "diversity", Corner2D::RightTop);
-        let topology = GraphView::new("Topology").with_origin("topology");
-        let spread = (0..card.islands).map(|island| {
-            let view = BarChartView::new(format!("Spread {island}"));
+        match card.program {
+            Program::Run => self.figures_of_run(card, run),
+            Program::Race => {
+                let distance = self.curves(card, format!("Distance ({unit})"), "distance");
+                let speed = self.curves(card, format!("Speed ({unit}/s)"), "speed");
+                Vertical::new([distance, speed, run]).with_row_shares([3.0, 2.0, 2.2]).into()
+            }
+            Program::Line => {
+                let fitness = self.curves(card, format!("Fitness ({unit})"), "fitness/line");
+                let distance = self.curves(card, format!("Distance ({unit})"), "distance");
+                let speed = self.curves(card, format!("Speed ({unit}/s)"), "speed");
+                let all = [fitness, distance, speed, run];
+                Vertical::new(all).with_row_shares([2.4, 2.0, 1.6, 2.4]).into()
+            }
+        }
+    }
+
+    fn figures_of_run(&mut self, card: &RunCard, run: ContainerLike) -> ContainerLike {
+        let unit = &card.unit;
+        let best = self.curves(card, format!("Best fitness ({unit})"), "fitness/best");
+        let mean = self.curves(card, format!("Mean fitness ({unit})"), "fitness/mean");
+        let diversity =
+            self.curves(card, "Diversity (mean distance of genomes, 0–1)".into(), "diversity");
+        let topology = GraphView::new("Topology").with_origin("topology").into();
+        let spread = card.lanes().map(|(island, _)| {
+            let view = BarChartView::new(format!("Spread {island} ({unit})"));
             self.no_legend(view.with_origin(format!("population/{island}")))
         });
         let spread = Tabs::new(spread.collect::<Vec<_>>());
-        let run = TextDocumentView::new("Run").with_origin("run");
-        let both = Horizontal::new([topology.into(), spread.into()]);
-        let words = Tabs::new([self.events(), run.into()]);
-        Vertical::new([Tabs::new([best, mean]).into(), diversity, both.into(), words.into()])
+        let both = Horizontal::new([topology, spread.into()]);
+        let states = StateTimelineView::new("Island state").with_origin("state").into();
+        self.set(&states, "TimeAxis", &whole_film());
+        let words = Tabs::new([self.events(), states, run]);
+        let curves = Tabs::new([best, mean]);
+        Vertical::new([curves.into(), diversity, both.into(), words.into()])
             .with_row_shares([3.0, 2.0, 2.4, 2.2])
             .into()
     }
 
-    fn curves(&mut self, name: String, origin: &str, legend: Corner2D) -> ContainerLike {
+    /// Curves over the whole film, whose legend is left out where it would hide them.
+    fn curves(&mut self, card: &RunCard, name: String, origin: &str) -> ContainerLike {
         let view = TimeSeriesView::new(name).with_origin(origin).into();
-        self.set(&view, "PlotLegend", &PlotLegend::new().with_corner(legend));
+        let is_legible = (2..=LEGEND_MAX).contains(&card.lane_count());
+        let corner = if origin == "diversity" { Corner2D::RightTop } else { Corner2D::LeftTop };
+        let legend = PlotLegend::new().with_corner(corner).with_visible(is_legible);
+        self.set(&view, "PlotLegend", &legend);
+        self.set(&view, "TimeAxis", &whole_film());
         view
     }
 
@@ -182,7 +248,7 @@ impl Layout {
     /// The events without the columns that say nothing.
     fn events(&mut self) -> ContainerLike {
         let view = TextLogView::new("Events").with_origin("events").into();
-        let time = TimelineColumn { visible: true.into(), timeline: PLAYBACK.into() };
+        let time = TimelineColumn { visible: true.into(), timeline: GENERATION.into() };
         let body = TextLogColumn { visible: true.into(), kind: TextLogColumnKind::Body };
         let columns =
             TextLogColumns::new().with_timeline_columns([time]).with_text_log_columns([body]);

@@ -17,12 +17,15 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// About how many slots [`Pace::for_run`] makes: two minutes of film with trials of ten seconds.
+    /// About how many slots [`Pace::for_run`] makes if nothing else is wished: two minutes of film with trials of
+    /// ten seconds.
     pub const SLOTS: u32 = 12;
 
-    /// A pace that gives a run of `generations` a watchable film; `slot_s` is the length of a trial.
-    pub fn for_run(generations: u32, slot_s: f64) -> Self {
-        Self { slot_s, generations_per_slot: generations.div_ceil(Self::SLOTS).max(1) }
+    /// A pace that gives a run of `generations` a watchable film, or a slot every `clip_every` generations;
+    /// `slot_s` is the length of a trial.
+    pub fn for_run(generations: u32, clip_every: Option<u32>, slot_s: f64) -> Self {
+        let usual = generations.div_ceil(Self::SLOTS);
+        Self { slot_s, generations_per_slot: clip_every.unwrap_or(usual).max(1) }
     }
 
     /// Whether a slot starts with this generation: only its champion has to be simulated again to be shown.
@@ -74,8 +77,8 @@ struct Reel {
 
 impl Film {
     /// An empty film.
-    pub fn new(islands: u32, pace: Pace) -> Self {
-        Self { pace, reels: vec![Reel::default(); islands as usize] }
+    pub fn new(lanes: u32, pace: Pace) -> Self {
+        Self { pace, reels: vec![Reel::default(); lanes as usize] }
     }
 
     /// Its pace.
@@ -86,7 +89,7 @@ impl Film {
     /// From now on `clip` is the champion of its island. A clip of an island that the film does not have is
     /// ignored.
     pub fn champion(&mut self, clip: Clip) {
-        if let Some(reel) = self.reels.get_mut(clip.island as usize) {
+        if let Some(reel) = self.reels.get_mut(clip.lane as usize) {
             reel.clip = Some(clip);
             reel.fresh = true;
         }
@@ -111,9 +114,9 @@ impl Film {
         }
     }
 
-    /// The next clip of an island to show, if a slot of it has opened; call until there is none.
-    pub fn next(&mut self, island: u32) -> Option<Screening<'_>> {
-        let reel = self.reels.get_mut(island as usize)?;
+    /// The next clip of a lane to show, if a slot of it has opened; call until there is none.
+    pub fn next(&mut self, lane: u32) -> Option<Screening<'_>> {
+        let reel = self.reels.get_mut(lane as usize)?;
         let clip = reel.clip.as_ref().filter(|_| reel.filled < reel.opened)?;
         let slot = reel.filled;
         reel.filled += 1;
@@ -122,8 +125,8 @@ impl Film {
         Some(Screening { clip, start_s: f64::from(slot) * self.pace.slot_s, generation })
     }
 
-    /// The number of islands.
-    pub fn islands(&self) -> u32 {
+    /// The number of lanes.
+    pub fn lanes(&self) -> u32 {
         self.reels.len() as u32
     }
 }
@@ -131,7 +134,9 @@ impl Film {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::creature::{Controller, Morphology};
     use crate::simulation::trajectory::Trajectory;
+    use nalgebra::UnitQuaternion;
 
     #[test]
     fn a_champion_that_comes_too_late_gets_a_slot_of_its_own() {
@@ -168,7 +173,7 @@ mod tests {
     #[test]
     fn a_run_of_any_length_makes_a_film_of_about_twelve_slots() {
         for generations in [0, 1, 12, 100, 5_000] {
-            let pace = Pace::for_run(generations, 10.0);
+            let pace = Pace::for_run(generations, None, 10.0);
             assert!(pace.film_s(generations) <= 120.0, "{pace:?}");
             assert!(pace.opens_slot(0));
         }
@@ -182,9 +187,18 @@ mod tests {
         shown
     }
 
-    fn clip(island: u32, generation: u32) -> Clip {
+    fn clip(lane: u32, generation: u32) -> Clip {
         let trajectory =
             Trajectory { shapes: vec![], times_s: vec![], poses: vec![], scoring_from_s: 0.0 };
-        Clip { island, generation, label: String::new(), trajectory }
+        Clip {
+            lane,
+            hue: lane,
+            generation,
+            label: String::new(),
+            short_label: String::new(),
+            morphology: Morphology { links: vec![], root_rotation: UnitQuaternion::identity() },
+            controller: Controller { period_s: 0.1, motors: vec![] },
+            trajectory,
+        }
     }
 }

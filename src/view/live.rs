@@ -38,6 +38,8 @@ const PORTS: u16 = 32;
 pub(super) struct Server {
     /// What to give to a viewer on this machine.
     pub address: String,
+    /// Its port, which may be another one than was asked for.
+    pub port: u16,
     // Held open: it keeps the other runs of this machine from the port.
     _claim: UnixDatagram,
 }
@@ -56,7 +58,7 @@ pub(super) fn serve(live: Live) -> Result<(GrpcServerSink, Server), ViewError> {
     };
     let sink = GrpcServerSink::new(&address, port, options).expect("it is an address");
     let address = sink.uri().to_string();
-    Ok((sink, Server { address, _claim: claim }))
+    Ok((sink, Server { address, port, _claim: claim }))
 }
 
 fn free_port(Live { address, port: first, .. }: Live) -> Result<(u16, UnixDatagram), ViewError> {

@@ -3,8 +3,9 @@
 //! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. It is made as a
 //! [`Draft`] and put in its place when it has everything that the one there has: a recording can be made anew at
 //! any time, and the old one is there until then. Read in this order: [`film`] says when a champion is on
-//! screen, so that no other need be simulated, [`clip`] turns its trajectory into columns of poses, [`scenery`]
-//! is what never changes, [`blueprint`] arranges it all, `file` writes it, [`live`] serves it, [`recorder`] puts it together, and
+//! screen, so that no other need be simulated, [`clip`] turns its trajectory into columns of rows (`limbs` its links and motors, `steps` its feet, `heading` brings
+//! it into its lane), [`scenery`] is what never changes, [`ruler`] paints distances on the ground, [`family`] and
+//! [`state`] are graphs and bars, `figures` the curves of a replay, [`blueprint`] arranges it all, `file` writes it, [`live`] serves it, [`recorder`] puts it together, and
 //! [`palette`] holds every colour.
 //!
 //! What a recording holds, by entity:
@@ -13,19 +14,29 @@
 //! /run                             the run card, a text document
 //! /islands/{i}                     the island's lane: everything below it stands in it
 //! /islands/{i}/ground              a floor that moves on under the champion, for the island's own view
-//! /islands/{i}/lane                a floor that stays, for the view of all islands
+//! /islands/{i}/ruler               distances on it
 //! /islands/{i}/follow              where the champion is and how large: the island's view looks from here
-//! /islands/{i}/follow/marker       its label, and the same one higher up for the view of all islands
+//! /islands/{i}/follow/marker       its label, and a shorter one for the view of all islands
 //! /islands/{i}/follow/flag
-//! /islands/{i}/champion/boxes      its links, an entity a kind of solid
+//! /islands/{i}/champion            turns what is below so that it goes along the lane
+//! /islands/{i}/champion/boxes      its links as they were simulated, an entity a kind of solid
 //! /islands/{i}/champion/cylinders
 //! /islands/{i}/champion/capsules   spheres too
-//! /islands/{i}/trail               the way it came
-//! /race                            the start line and the marks of the view of all islands
+//! /islands/{i}/champion/motors     a pin through each driven joint: light or dark as the motor drives
+//! /islands/{i}/trail               the way that its centre of mass came
+//! /islands/{i}/contacts            where it touches the ground, and where it did
+//! /islands/{i}/prints
+//! /race/lanes/{i}                  floors that stay, for the view of all islands
+//! /race/ruler                      the start line and the distances on them
 //! /fitness/best/{i}  /fitness/mean/{i}  /diversity/{i}  /population/{i}
+//! /state/island-{i}                how the island fares
 //! /events                          what happened, a text log
+//! /family                          where the best champion comes from, a graph
 //! /topology                        who sends to whom, a graph
 //! ```
+//!
+//! A replay has `/distance/{i}` and `/speed/{i}` instead of a run's curves, a line of ancestors also
+//! `/fitness/line` and `/line/follow`, where its view looks from.
 //!
 //! Timelines are `playback`, the film clock in seconds, and `generation`.
 //!
@@ -37,26 +48,38 @@ pub mod card;
 pub mod clip;
 pub mod draft;
 mod extent;
+pub mod family;
+mod figures;
 mod file;
 pub mod film;
+mod heading;
+mod limbs;
 pub mod live;
 pub mod palette;
 pub mod recorder;
+pub mod ruler;
 pub mod scenery;
+pub mod state;
+mod steps;
 
 #[cfg(test)]
 #[expect(clippy::disallowed_methods, reason = "a walker of the tests decides no result")]
 mod tests;
 
-pub use card::RunCard;
+pub use card::{Lane, Program, RunCard};
 pub use clip::Clip;
 pub use draft::Draft;
+pub use family::Family;
 pub use film::Pace;
 pub use live::Live;
 pub use recorder::Recorder;
+pub use state::Mood;
 
 use std::net::IpAddr;
 use std::path::PathBuf;
+
+/// The version that a viewer must have to show what is recorded here.
+pub const VIEWER_VERSION: &str = "0.36.3";
 
 /// The name of all runs' blueprints: a viewer keeps the user's own arrangement under it.
 const APPLICATION: &str = "islands";

@@ -8,6 +8,9 @@ pub const BACKDROP: [u8; 3] = [14, 17, 24];
 /// The start line and the distance marks.
 pub const MARKS: [u8; 3] = [170, 176, 188];
 
+/// Where a foot is on the ground.
+pub const TOUCH: [u8; 3] = [250, 250, 245];
+
 /// The Okabe-Ito palette, which colour-blind people can tell apart, with its dark colours lifted and its
 /// black left out; in an order that keeps neighbours far apart.
 /// Source: M. Okabe, K. Ito, "Color Universal Design" (2008).
@@ -39,6 +42,17 @@ pub fn link(island: u32, link: usize) -> Color {
 pub fn floor(island: u32) -> [[u8; 3]; 2] {
     let hue = self::island(island);
     [mix(hue, BACKDROP, 0.88), mix(hue, BACKDROP, 0.77)]
+}
+
+/// What is painted on an island's floor.
+pub fn paint(island: u32) -> Color {
+    opaque(mix(self::island(island), BACKDROP, 0.45))
+}
+
+/// A motor that drives one way (1), not at all (0) or the other way (-1): light, grey, dark, which everybody can
+/// tell apart and which no island has.
+pub fn drive(way: f32) -> Color {
+    opaque(mix([18, 18, 22], [255, 255, 250], (way + 1.0) / 2.0))
 }
 
 /// `from` and `to` mixed, `part` of it `to`.

@@ -1,14 +1,19 @@
 //! A run's recording: a file, and a server for those who watch live.
 
 use super::blueprint::{self, Audience};
-use super::card::RunCard;
+use super::card::{Program, RunCard};
+use super::family::{self, Family};
 use super::file::RrdFile;
-use super::film::Film;
+use super::film::{Film, Pace, Screening};
 use super::live::{self, Live, Server};
-use super::{APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, palette, scenery};
+use super::scenery::Track;
+use super::state::{self, Mood};
+use super::{
+    APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, figures, palette, scenery,
+};
 use crate::archipelago::island::Report;
-use crate::evolution::Spread;
 use crate::evolution::population::SPREAD_BARS;
+use crate::evolution::{Fitness, Spread};
 use rerun::sink::LogSink;
 use rerun::{ApplicationId, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, TextLog};
 
@@ -19,6 +24,8 @@ const BAR_WIDTH_MIN: f64 = 1e-6;
 pub struct Recorder {
     stream: RecordingStream,
     film: Film,
+    program: Program,
+    track: Track,
     server: Option<Server>,
     file: RrdFile,
     draft: Draft,
@@ -49,13 +56,23 @@ impl Recorder {
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
         scenery::build(&stream, &card)?;
-        let film = Film::new(card.islands, card.pace);
-        Ok(Self { stream, film, server, file, draft })
+        let film = Film::new(card.lane_count(), card.pace);
+        Ok(Self { stream, film, program: card.program, track: card.track(), server, file, draft })
     }
 
     /// What to give to a viewer to watch live: `rerun ADDRESS`.
     pub fn address(&self) -> Option<String> {
         self.server.as_ref().map(|server| server.address.clone())
+    }
+
+    /// The port that it is served on.
+    pub fn port(&self) -> Option<u16> {
+        self.server.as_ref().map(|server| server.port)
+    }
+
+    /// How fast generations pass.
+    pub fn pace(&self) -> Pace {
+        self.film.pace()
     }
 
     /// Whether the champion that an island has in this generation will be seen: no other needs to be simulated
@@ -88,7 +105,51 @@ impl Recorder {
     /// replaced before is never seen.
     pub fn champion(&mut self, clip: &Clip) -> Result<(), ViewError> {
         self.film.champion(clip.clone());
-        self.roll(clip.island)
+        self.roll(clip.lane)
+    }
+
+    /// Shows a clip in a slot of a film that is no run's.
+    pub fn play(&mut self, clip: &Clip, slot: u32) -> Result<(), ViewError> {
+        let slot_s = self.film.pace().slot_s;
+        let start_s = f64::from(slot) * slot_s;
+        let screening = Screening { clip, start_s, generation: clip.generation };
+        clip::show(&self.stream, screening, slot_s)?;
+        figures::show(&self.stream, screening, slot_s)?;
+        if self.program == Program::Line {
+            clip::follow(&self.stream, screening, slot_s, self.track)?;
+        }
+        Ok(())
+    }
+
+    /// What the creature of a slot got, in a film of a line.
+    pub fn score(&mut self, slot: u32, generation: u32, fitness: Fitness) -> Result<(), ViewError> {
+        let Some(score) = fitness.finite() else { return Ok(()) };
+        let slot_s = self.film.pace().slot_s;
+        // The end of a slot is the beginning of the next one.
+        for share in [0.0, 0.999] {
+            self.stream.set_duration_secs(PLAYBACK, (f64::from(slot) + share) * slot_s);
+            self.stream.set_time_sequence(GENERATION, generation);
+            self.stream.log("fitness/line", &Scalars::single(score))?;
+        }
+        Ok(())
+    }
+
+    /// From a generation on an island fares otherwise.
+    pub fn mood(&mut self, island: u32, generation: u32, mood: Mood) -> Result<(), ViewError> {
+        self.stamp(generation);
+        state::show(&self.stream, island, mood)
+    }
+
+    /// From a film time on, in seconds, this is the family that is shown.
+    pub fn family(
+        &mut self,
+        start_s: f64,
+        generation: u32,
+        family: &Family,
+    ) -> Result<(), ViewError> {
+        self.stream.set_duration_secs(PLAYBACK, start_s);
+        self.stream.set_time_sequence(GENERATION, generation);
+        family::show(&self.stream, family)
     }
 
     /// Something happened in a generation, on an island or to the run.
@@ -129,8 +190,8 @@ impl Recorder {
     /// If something could not be written.
     pub fn finish(mut self) -> Result<(), ViewError> {
         self.film.end();
-        for island in 0..self.film.islands() {
-            self.roll(island)?;
+        for lane in 0..self.film.lanes() {
+            self.roll(lane)?;
         }
         self.flush()?;
         self.file.finish().map_err(|message| self.cannot_write(message))?;
@@ -142,9 +203,9 @@ impl Recorder {
     }
 
     /// Shows what is due.
-    fn roll(&mut self, island: u32) -> Result<(), ViewError> {
+    fn roll(&mut self, lane: u32) -> Result<(), ViewError> {
         let slot_s = self.film.pace().slot_s;
-        while let Some(screening) = self.film.next(island) {
+        while let Some(screening) = self.film.next(lane) {
             clip::show(&self.stream, screening, slot_s)?;
         }
         Ok(())

@@ -1,81 +1,118 @@
 //! What stands still: floors, lanes, the start line, the graph of who sends to whom, the run card.
 
-use super::card::RunCard;
-use super::{ViewError, palette};
+use super::card::{Program, RunCard};
+use super::ruler::Ruler;
+use super::{ViewError, figures, palette, state};
 use rerun::components::InterpolationMode;
 use rerun::{
-    GraphEdges, GraphNodes, LineStrips3D, Mesh3D, Points3D, Radius, RecordingStream, SeriesLines,
-    TextDocument, Transform3D, ViewCoordinates,
+    GraphEdges, GraphNodes, Mesh3D, RecordingStream, SeriesLines, TextDocument, Transform3D,
+    ViewCoordinates,
 };
 use std::f32::consts::TAU;
 
-/// The distance of two islands' lanes, in metres. Even, so that lanes share the tiling.
-pub const LANE_M: f32 = 4.0;
+/// The width of a lane, in metres.
+const LANE_M: f32 = 3.0;
+/// The width of each of many lanes, in metres: it is more important to see them all.
+const NARROW_LANE_M: f32 = 2.0;
+/// So many lanes are many.
+const MANY: u32 = 7;
 /// How far a lane reaches behind its start, in metres.
 const LANE_BEHIND_M: i32 = 2;
-/// How far a lane reaches ahead, in metres.
-pub const LANE_AHEAD_M: i32 = 20;
+/// How far a lane reaches ahead, in metres; in its second half it fades.
+pub const LANE_AHEAD_M: i32 = 16;
 /// How far the floor below a champion reaches, in metres; from half of it on it fades.
 const FLOOR_M: i32 = 18;
 
 /// Writes everything that stands still.
 pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
     rec.log_static("run", &TextDocument::from_markdown(card.description_markdown.as_str()))?;
-    rec.log_static("islands", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    rec.log_static("race", &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    for island in 0..card.islands {
-        stage(rec, island)?;
-        series(rec, island)?;
+    for root in ["islands", "race", "line"] {
+        rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     }
-    marks(rec, card.islands)?;
-    topology(rec, card)
+    let track = card.track();
+    card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
+    marks(rec, track)?;
+    match card.program {
+        Program::Race | Program::Line => figures::configure(rec, card),
+        Program::Run => {
+            card.lanes().try_for_each(|(island, _)| series(rec, island))?;
+            state::configure(rec, card)?;
+            topology(rec, card)
+        }
+    }
 }
 
-/// The place of an island in the view of all.
-fn stage(rec: &RecordingStream, island: u32) -> Result<(), ViewError> {
-    let path = format!("islands/{island}");
-    let offset = [0.0, lane_y(island), 0.0];
-    rec.log_static(path.as_str(), &Transform3D::from_translation(offset))?;
+/// The place of a champion, alone and in the view of all.
+fn stage(rec: &RecordingStream, track: Track, index: u32, hue: u32) -> Result<(), ViewError> {
+    let path = format!("islands/{index}");
+    let offset = Transform3D::from_translation([0.0, track.lane_y(index), 0.0]);
+    rec.log_static(path.as_str(), &offset)?;
 
-    let round = |x: i32, y: i32| {
-        let far = (x as f32).hypot(y as f32) / FLOOR_M as f32;
+    let round = |x: f32, y: f32| {
+        let far = x.hypot(y) / FLOOR_M as f32;
         1.0 - ((far - 0.4) / 0.6).clamp(0.0, 1.0)
     };
-    let floor = checker(island, -FLOOR_M..FLOOR_M, -FLOOR_M..FLOOR_M, round);
+    let floor = checker(hue, -FLOOR_M..FLOOR_M, -(FLOOR_M as f32), 2 * FLOOR_M, round);
     rec.log_static(format!("{path}/ground"), &floor)?;
 
-    let ahead = |x: i32, _| {
-        let past = (x - LANE_AHEAD_M / 2) as f32 / (LANE_AHEAD_M as f32 / 2.0);
+    let ahead = |x: f32, _| {
+        let past = (x - LANE_AHEAD_M as f32 / 2.0) / (LANE_AHEAD_M as f32 / 2.0);
         1.0 - past.clamp(0.0, 1.0)
     };
-    let half = LANE_M as i32 / 2;
-    let lane = checker(island, -LANE_BEHIND_M..LANE_AHEAD_M, -half..half, ahead);
-    Ok(rec.log_static(format!("{path}/lane"), &lane)?)
+    let path = format!("race/lanes/{index}");
+    rec.log_static(path.as_str(), &offset)?;
+    let (right, rows) = (-track.lane_m / 2.0, track.lane_m as i32);
+    let lane = checker(hue, -LANE_BEHIND_M..LANE_AHEAD_M, right, rows, ahead);
+    Ok(rec.log_static(path, &lane)?)
 }
 
-/// The middle of an island's lane: island 0 is the leftmost for who looks along them.
-fn lane_y(island: u32) -> f32 {
-    -LANE_M * island as f32
+/// Lanes side by side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Track {
+    /// How many.
+    pub lanes: u32,
+    /// The width of each, in metres.
+    pub lane_m: f32,
 }
 
-/// The middle of all lanes.
-pub fn middle_y(islands: u32) -> f32 {
-    lane_y(islands.saturating_sub(1)) / 2.0
+impl Track {
+    /// A track of so many lanes.
+    pub fn of(lanes: u32) -> Self {
+        Self { lanes, lane_m: if lanes < MANY { LANE_M } else { NARROW_LANE_M } }
+    }
+
+    /// The middle of a lane: the first one is the leftmost for who looks along them.
+    pub fn lane_y(self, lane: u32) -> f32 {
+        -self.lane_m * lane as f32
+    }
+
+    /// The middle of all lanes.
+    pub fn middle_y(self) -> f32 {
+        self.lane_y(self.lanes.saturating_sub(1)) / 2.0
+    }
+
+    /// The width of all lanes, in metres.
+    pub fn width_m(self) -> f32 {
+        self.lane_m * self.lanes as f32
+    }
 }
 
-/// A floor of tiles of a metre in the two colours of an island; `light` says how bright a corner is.
+/// A floor of tiles of a metre in the two colours of an island, so many rows of them from `right` on; `light` says
+/// how bright a corner is.
 fn checker(
-    island: u32,
+    hue: u32,
     xs: std::ops::Range<i32>,
-    ys: std::ops::Range<i32>,
-    light: impl Fn(i32, i32) -> f32,
+    right: f32,
+    rows: i32,
+    light: impl Fn(f32, f32) -> f32,
 ) -> Mesh3D {
     let (mut positions, mut colors, mut triangles) = (Vec::new(), Vec::new(), Vec::new());
-    for (x, y) in xs.flat_map(|x| ys.clone().map(move |y| (x, y))) {
-        let tile = palette::floor(island)[((x + y) & 1) as usize];
+    for (x, row) in xs.flat_map(|x| (0..rows).map(move |row| (x, row))) {
+        let tile = palette::floor(hue)[((x + row) & 1) as usize];
         let first = positions.len() as u32;
-        for (x, y) in [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] {
-            positions.push([x as f32, y as f32, 0.0]);
+        let (x, y) = (x as f32, right + row as f32);
+        for (x, y) in [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)] {
+            positions.push([x, y, 0.0]);
             colors.push(palette::opaque(palette::mix(palette::BACKDROP, tile, light(x, y))));
         }
         triangles.push([first, first + 1, first + 2]);
@@ -85,24 +122,19 @@ fn checker(
     Mesh3D::new(positions).with_vertex_colors(colors).with_triangle_indices(triangles)
 }
 
-/// The start line and marks at every fifth metre.
-fn marks(rec: &RecordingStream, islands: u32) -> Result<(), ViewError> {
-    let left = lane_y(0) + LANE_M / 2.0;
-    let right = lane_y(islands.saturating_sub(1)) - LANE_M / 2.0;
-    let metres: Vec<i32> = (0..=LANE_AHEAD_M / 2).step_by(5).collect();
-    let lines = metres.iter().map(|&m| [[m as f32, left, 0.01], [m as f32, right, 0.01]]);
-    let radii = metres.iter().map(|&m| if m == 0 { 0.04 } else { 0.012 });
-    let strips =
-        LineStrips3D::new(lines).with_radii(radii).with_colors([palette::opaque(palette::MARKS)]);
-    rec.log_static("race/lines", &strips)?;
-
-    let labels = metres.iter().map(|&m| if m == 0 { "start".into() } else { format!("{m} m") });
-    let points = Points3D::new(metres.iter().map(|&m| [m as f32, left + 0.7, 0.3]))
-        .with_radii([Radius::new_ui_points(0.5)])
-        .with_colors([palette::opaque(palette::MARKS)])
-        .with_labels(labels)
-        .with_show_labels(true);
-    Ok(rec.log_static("race/marks", &points)?)
+/// The start line and a line at each metre, across all lanes.
+fn marks(rec: &RecordingStream, track: Track) -> Result<(), ViewError> {
+    let size = (track.width_m() / 12.0).clamp(0.6, 1.8);
+    let edge = track.lane_m / 2.0;
+    let ruler = Ruler {
+        metres: LANE_AHEAD_M as u32 * 3 / 4,
+        left_m: track.lane_y(0) + edge,
+        right_m: track.lane_y(track.lanes.saturating_sub(1)) - edge,
+        digit_m: 0.4 * size,
+        line_m: 0.014 * size,
+        every: if size > 1.2 { 2 } else { 1 },
+    };
+    Ok(rec.log_static("race/ruler", &ruler.paint(palette::opaque(palette::MARKS)))?)
 }
 
 /// The look of an island's curves.
@@ -126,13 +158,13 @@ fn series(rec: &RecordingStream, island: u32) -> Result<(), ViewError> {
 
 /// The islands on a circle, an arrow for every way that migrants take.
 fn topology(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
-    let islands = 0..card.islands;
+    let islands = 0..card.lane_count();
     let name = |island: u32| format!("island {island}");
     let place = |island: u32| {
-        let angle = TAU * island as f32 / card.islands as f32;
+        let angle = TAU * island as f32 / card.lane_count() as f32;
         // Wider than high, as its place on the screen, and with room for the names.
-        let size = (card.islands as f32 / 8.0).max(1.0);
-        [120.0 * size * angle.sin(), -75.0 * size * angle.cos()]
+        let size = (card.lane_count() as f32 / 8.0).max(1.0);
+        [105.0 * size * angle.sin(), -75.0 * size * angle.cos()]
     };
     let nodes = GraphNodes::new(islands.clone().map(name))
         .with_positions(islands.clone().map(place))

@@ -52,7 +52,7 @@ impl Shelf {
 
     fn filled_from(mut self, from: &RunDir) -> Self {
         let files = |dir: &RunDir| {
-            let logs = [dir.champions(0), dir.reports(0), dir.migrations(0)];
+            let logs = [dir.champions(0), dir.lineages(0), dir.reports(0), dir.migrations(0)];
             let [last, before] = [3, 2].map(|generation| dir.checkpoint(0, generation));
             logs.into_iter().chain([before, last])
         };
@@ -119,7 +119,7 @@ fn a_checkpoint_with_any_byte_flipped_or_missing_is_named_and_the_one_before_it_
 #[test]
 fn without_any_whole_checkpoint_an_island_begins_from_the_seed_and_says_why() {
     let shelf = Shelf::of_steps();
-    for (path, bytes) in &shelf.files[3..] {
+    for (path, bytes) in &shelf.files[4..] {
         fs::write(path, &bytes[1..]).unwrap();
     }
     let restored = shelf.open().unwrap();

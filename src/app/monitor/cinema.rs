@@ -3,14 +3,16 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::say;
+use super::super::pedigree::{self, Herald};
 use super::super::result;
+use super::ancestry::Ancestry;
 use super::logs::Sighting;
 use crate::archipelago::Champion;
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Outcome, Problem};
 use crate::problems::Locomotion;
 use crate::simulation::Trajectory;
-use crate::view::{Clip, Draft, Live, Pace, Recorder, RunCard, ViewError};
+use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -18,11 +20,20 @@ use std::path::Path;
 /// little, and a film that is made anew must soon be where the run is.
 pub struct Cinema {
     problem: Locomotion,
+    herald: Herald,
     recorder: Recorder,
     /// Each island's newest champion, if it was not filmed.
     unfilmed: Vec<Option<Champion<Gene>>>,
+    /// The generation of each island's newest champion.
+    reigns_since: Vec<u32>,
+    ancestry: Ancestry,
+    /// Whom each island receives from.
+    sources: Vec<Vec<u32>>,
     has_shown: bool,
 }
+
+/// An island without a better champion for so many generations stagnates.
+const STAGNANT: u32 = 5;
 
 impl Cinema {
     /// Begins a recording for the path `recording`, in `folder`, and serves it if wanted; where it cannot be
@@ -35,9 +46,10 @@ impl Cinema {
         recording: &Path,
         live: Option<Live>,
         config: &Config,
+        clip_every: Option<u32>,
     ) -> Result<Self, Failure> {
-        let record =
-            |live| Recorder::create(Draft::within(folder, recording)?, live, run_card(config));
+        let card = run_card(config, clip_every);
+        let record = |live| Recorder::create(Draft::within(folder, recording)?, live, card.clone());
         let recorder = match record(live) {
             Err(error @ (ViewError::NoFreePort { .. } | ViewError::Serve { .. })) => {
                 say(&format!("warning: {error}; this run is only recorded"));
@@ -45,13 +57,25 @@ impl Cinema {
             }
             result => result?,
         };
-        let unfilmed = (0..config.islands).map(|_| None).collect();
-        Ok(Self { problem: config.problem(), recorder, unfilmed, has_shown: false })
+        let (problem, islands) = (config.problem(), config.islands);
+        let herald = Herald::of(config);
+        let ancestry = Ancestry::new(herald, islands, recorder.pace());
+        let unfilmed = (0..islands).map(|_| None).collect();
+        let reigns_since = vec![0; islands as usize];
+        let archipelago = config.archipelago();
+        let sources = (0..islands).map(|island| archipelago.in_neighbours(island)).collect();
+        let has_shown = false;
+        Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
     }
 
     /// What to give to a viewer to watch live.
     pub fn address(&self) -> Option<String> {
         self.recorder.address()
+    }
+
+    /// The port that it is served on.
+    pub fn port(&self) -> Option<u16> {
+        self.recorder.port()
     }
 
     /// Whether there is anything in the recording.
@@ -64,21 +88,57 @@ impl Cinema {
     /// # Errors
     /// If it cannot be recorded.
     pub fn show(&mut self, sighting: &Sighting) -> Result<(), Failure> {
-        let Sighting { report, champion } = sighting;
+        let Sighting { report, champion, births } = sighting;
         let (island, generation) = (report.island, report.generation);
         if report.immigrants > 0 {
-            let news = format!("{} immigrants arrive", report.immigrants);
+            let sources: Vec<String> =
+                self.sources[island as usize].iter().map(u32::to_string).collect();
+            let news = format!(
+                "migration {} → {island}: {} immigrants",
+                sources.join(", "),
+                report.immigrants
+            );
             self.recorder.event(Some(island), generation, &news)?;
         }
         if let Some(champion) = champion {
             self.recorder.event(Some(island), generation, &self.news(island, champion))?;
             self.unfilmed[island as usize] = Some(champion.clone());
         }
+        self.tell_mood(island, generation, champion.as_ref())?;
         if self.recorder.opens_slot(generation) {
             self.film(island)?;
         }
         self.has_shown = true;
-        Ok(self.recorder.report(report)?)
+        self.recorder.report(report)?;
+        self.ancestry.learn(report, champion.as_ref(), births.clone());
+        self.show_families(false)
+    }
+
+    /// Shows the families that are due.
+    fn show_families(&mut self, is_over: bool) -> Result<(), Failure> {
+        while let Some((start_s, generation, family)) = self.ancestry.next(is_over) {
+            self.recorder.family(start_s, generation, &family)?;
+        }
+        Ok(())
+    }
+
+    fn tell_mood(
+        &mut self,
+        island: u32,
+        generation: u32,
+        champion: Option<&Champion<Gene>>,
+    ) -> Result<(), Failure> {
+        let since = &mut self.reigns_since[island as usize];
+        let mood = match champion {
+            Some(champion) if champion.individual.id.island != island => Mood::IsConquered,
+            Some(_) => Mood::Improves,
+            None if generation == *since + STAGNANT => Mood::Stagnates,
+            None => return Ok(()),
+        };
+        if champion.is_some() {
+            *since = generation;
+        }
+        Ok(self.recorder.mood(island, generation, mood)?)
     }
 
     /// Waits until everything is written.
@@ -107,6 +167,7 @@ impl Cinema {
     /// If the disk is full or gone.
     pub fn finish(mut self) -> Result<(), Failure> {
         (0..self.unfilmed.len() as u32).try_for_each(|island| self.film(island))?;
+        self.show_families(true)?;
         if self.has_shown {
             self.recorder.finish()?;
         }
@@ -120,18 +181,15 @@ impl Cinema {
             |_| String::new(),
             |creature| format!(", {} links", creature.morphology.links.len()),
         );
-        let origin = match individual.id.island {
-            born if born == island => String::new(),
-            born => format!(", born on island {born}"),
-        };
-        format!("new champion, {score}{links}{origin}")
+        let origin = self.herald.origin(individual.id, individual.parents, island);
+        format!("island {island}: new champion, {score}{links}, {origin}")
     }
 
     /// Simulates an island's newest champion again, if that was not done. It must get the fitness that it was
     /// reported with, bit for bit: what is seen is what was scored.
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
-        let shown = result::show(&self.problem, &champion);
+        let score = pedigree::standing(&self.problem, &champion);
         let Champion { generation, individual, .. } = champion;
         let Some((evaluation, trajectory)) = self.simulate(&individual.genome) else {
             return Ok(());
@@ -145,8 +203,18 @@ impl Cinema {
             say(&news);
             self.recorder.event(Some(island), generation, &news)?;
         }
-        let label = format!("gen {generation} · {shown}");
-        Ok(self.recorder.champion(&Clip { island, generation, label, trajectory })?)
+        let Ok(creature) = self.problem.express(&individual.genome) else { return Ok(()) };
+        let origin = self.herald.origin(individual.id, individual.parents, island);
+        Ok(self.recorder.champion(&Clip {
+            lane: island,
+            hue: island,
+            generation,
+            label: format!("gen {generation} · {score} · {origin}"),
+            short_label: format!("{island} · {score}"),
+            morphology: creature.morphology,
+            controller: creature.controller,
+            trajectory,
+        })?)
     }
 
     /// A champion whose body cannot be built has no film.
@@ -166,17 +234,33 @@ impl Cinema {
     }
 }
 
-fn run_card(config: &Config) -> RunCard {
+fn run_card(config: &Config, clip_every: Option<u32>) -> RunCard {
     let archipelago = config.archipelago();
     let edges = (0..config.islands).flat_map(|island| {
         archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
     });
     let trial = config.task.trial();
+    let clip_every = clip_every.or(config.clip_every);
     RunCard {
-        islands: config.islands,
+        program: Program::Run,
+        lanes: Lane::of_islands(config.islands),
         unit: config.problem().unit().to_owned(),
-        description_markdown: format!("# A run\n\n```toml\n{}```\n", config.to_toml()),
+        description_markdown: description(config),
         topology_edges: edges.collect(),
-        pace: Pace::for_run(config.generations, trial.settle_s + trial.scored_s),
+        has_family: true,
+        pace: Pace::for_run(config.generations, clip_every, trial.settle_s + trial.scored_s),
     }
+}
+
+/// What decides the run, but neither when it was launched nor how it was run: films of equal runs are equal.
+fn description(config: &Config) -> String {
+    let Config { islands, population, generations, task, profile, .. } = config;
+    format!(
+        "# {islands} islands × {population} creatures, {generations} generations\n\n\
+         Task **{task}**, profile **{profile}**, seed **{}**\n\n\
+         On every champion, pins through its driven joints are light while the motor turns one way and dark \
+         while it turns the other; white discs are where it touches the ground.\n\n```toml\n{}```\n",
+        config.seed.unwrap_or_default(),
+        Config { launch: None, threads: None, ..config.clone() }.to_toml()
+    )
 }

@@ -1,7 +1,7 @@
 //! What the islands of a run have written down, read while they write on.
 
 use super::super::console::say;
-use crate::archipelago::{Champion, Report};
+use crate::archipelago::{Births, Champion, Report};
 use crate::creature::Gene;
 use crate::store::{Entry, RunDir, StoreError, Tail};
 use std::path::PathBuf;
@@ -13,6 +13,8 @@ pub struct Sighting {
     pub report: Report,
     /// The champion, if it is a new one.
     pub champion: Option<Champion<Gene>>,
+    /// Who was born in it; nobody if that was not written down.
+    pub births: Option<Births>,
 }
 
 /// The logs of all islands.
@@ -52,6 +54,7 @@ struct Island {
     path: PathBuf,
     reports: Tail<Entry>,
     champions: Tail<Champion<Gene>>,
+    lineages: Tail<Births>,
     /// A champion whose generation was not reported yet.
     coming: Option<Champion<Gene>>,
     /// What was read and not taken.
@@ -68,6 +71,7 @@ impl Island {
             path: dir.reports(index),
             reports: Tail::of(dir.reports(index)),
             champions: Tail::of(dir.champions(index)),
+            lineages: Tail::of(dir.lineages(index)),
             coming: None,
             next: None,
             generation: 0,
@@ -101,7 +105,8 @@ impl Island {
             );
             return Err(StoreError::Damaged { path: self.path.clone(), reason });
         }
-        // A generation's champion is written before its report.
+        // A generation's births and its champion are written before its report.
+        let births = self.lineages.next_record()?;
         let mut champion = None;
         loop {
             self.coming = match self.coming.take() {
@@ -109,7 +114,7 @@ impl Island {
                 coming => coming,
             };
             if self.coming.as_ref().is_none_or(|coming| coming.generation > report.generation) {
-                return Ok(Some(Sighting { report, champion }));
+                return Ok(Some(Sighting { report, champion, births }));
             }
             champion = self.coming.take();
         }

@@ -1,10 +1,13 @@
 //! The monitor's process: films what the islands write down, and serves it live. It only looks: a run without
 //! it loses nothing but the film, and a monitor that dies loses nothing at all, since another one makes the
-//! same film anew. `logs` reads what the islands wrote, `cinema` films it, and `show` says when.
+//! same film anew. `logs` reads what the islands wrote, `cinema` films it, `ancestry` says whose family is seen, and
+//! `show` when.
 
 use super::Failure;
 use super::cli::MonitorArgs;
 
+#[cfg(feature = "view")]
+mod ancestry;
 #[cfg(feature = "view")]
 mod cinema;
 #[cfg(feature = "view")]

@@ -1,11 +1,11 @@
 //! When what the islands of a run wrote down is shown, and when that is over.
 
 use super::super::Failure;
-use super::super::cli::MonitorArgs;
+use super::super::cli::{MonitorArgs, Watching};
 use super::super::config::Config;
-use super::super::console::{print, say};
+use super::super::console::{Stopwatch, print, say};
 use super::super::kinship::{Ear, SERVING, tell};
-use super::super::result;
+use super::super::{result, viewer};
 use super::cinema::Cinema;
 use super::logs::Logs;
 use crate::store::RunDir;
@@ -16,9 +16,12 @@ use std::time::Duration;
 /// The monitor looks about so often.
 const LOOK: Duration = Duration::from_millis(20);
 /// How much the monitor stands back behind the islands: filming must not cost them evaluations.
-const NICENESS: i32 = 10;
+const NICENESS: i32 = 19;
+/// While the islands work, the monitor rests for so many times the time that it has computed: it takes about 5 %
+/// of a core, even where a core is idle.
+const REST: f64 = 19.0;
 /// The rounds of generations that are shown before a full disk is noticed and a viewer gets to see them.
-const BATCH: usize = 64;
+const BATCH: usize = 16;
 
 /// Shows a run, as [`super::run`] says.
 ///
@@ -36,13 +39,27 @@ pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
     let launched = args.parent.is_some();
     let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
     // Nobody has the time to attach to a run that is over.
-    let live = (launched || dir.is_under_way()?)
-        .then(|| Live { address: args.view_address, ..Live::default() });
+    let is_watched = args.view.view != Watching::Off && (launched || dir.is_under_way()?);
+    let live = is_watched.then(|| Live {
+        address: args.view.view_address,
+        port: args.view.view_port.unwrap_or(Live::default().port),
+        ..Live::default()
+    });
     let folder = if launched { dir.partial() } else { dir.path().to_owned() };
-    let cinema = Cinema::open(&folder, &dir.recording(), live, &config)?;
+    let cinema = Cinema::open(&folder, &dir.recording(), live, &config, args.clip_every)?;
+    if let (Some(wanted), Some(port)) = (args.view.view_port, cinema.port())
+        && wanted != port
+    {
+        say(&format!("warning: port {wanted} is taken; the live view is served on port {port}"));
+    }
     match cinema.address() {
         Some(address) if launched => tell(&format!("{SERVING}{address}")),
-        Some(address) => print(&format!("watch it live:  rerun {address}")),
+        Some(address) => {
+            print(&format!("watch it live:  rerun {address}"));
+            if args.view.view == Watching::Spawn {
+                viewer::open(address);
+            }
+        }
         None => {}
     }
     let logs = Logs::of(&dir, config.islands);
@@ -84,19 +101,38 @@ impl Show {
     fn run(mut self) -> Result<(), Failure> {
         let mut last = false;
         loop {
+            let began_s = cpu_s();
             if self.look()? {
+                // A recording that replaces none has nothing to wait for, while the islands may long be ahead.
+                if self.is_under_way()? && !self.dir.recording().exists() {
+                    self.cinema.publish()?;
+                }
+                self.rest(REST * (cpu_s() - began_s))?;
                 continue;
             }
             if last {
                 return self.end();
             }
             // What was written before this is read after it.
-            last = self.ear.heard_stop() || !(self.launched || self.dir.is_under_way()?);
+            last = self.ear.heard_stop() || !self.is_under_way()?;
             if !last {
                 self.cinema.publish()?;
                 std::thread::sleep(LOOK);
             }
         }
+    }
+
+    /// Leaves the cores to the islands for a while, unless they have ended.
+    fn rest(&self, seconds: f64) -> Result<(), Failure> {
+        let watch = Stopwatch::start();
+        while watch.seconds() < seconds && !self.ear.heard_stop() && self.is_under_way()? {
+            std::thread::sleep(LOOK);
+        }
+        Ok(())
+    }
+
+    fn is_under_way(&self) -> Result<bool, Failure> {
+        Ok(self.launched || self.dir.is_under_way()?)
     }
 
     /// Shows what is there, or a part of it; whether there was something.
@@ -140,5 +176,32 @@ impl Show {
         cinema.finish()?;
         print(&format!("view it:  rerun {}", recording.display()));
         Ok(())
+    }
+}
+
+/// The time that this process has computed for, all threads together, in seconds; 0 where the system does not
+/// tell.
+fn cpu_s() -> f64 {
+    /// Of the kernel's clock, which it has shown in these units for ever.
+    const TICKS_PER_S: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The second field, the program's name, may hold anything; it ends with the last parenthesis. Of what
+    // follows, fields 12 and 13 are the times in the program and in the kernel.
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace();
+    fields.skip(11).take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>() / TICKS_PER_S
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn time_that_was_computed_for_is_counted() {
+        let began_s = cpu_s();
+        let mut sum = 0_u64;
+        while cpu_s() - began_s < 0.03 {
+            sum = std::hint::black_box(sum + 1);
+        }
+        assert!(sum > 0);
     }
 }

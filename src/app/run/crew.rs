@@ -1,13 +1,13 @@
 //! The processes of a run: who they are, what is known of each, and how one is started again.
 
 use super::super::Failure;
+use super::super::cli::{ViewArgs, Watching};
 use super::super::config::Config;
 use super::super::console::Stopwatch;
 use super::kin::{Kin, Role, Word};
 use super::mortality::Deaths;
 use crate::store::RunDir;
 use std::collections::BTreeMap;
-use std::net::IpAddr;
 use std::process::ExitStatus;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
@@ -19,7 +19,7 @@ const LOOK: Duration = Duration::from_millis(20);
 pub struct Crew {
     dir: RunDir,
     config: Config,
-    view_address: IpAddr,
+    view: ViewArgs,
     posts: BTreeMap<Role, Post>,
     sender: Sender<(Role, Word)>,
     words: Receiver<(Role, Word)>,
@@ -44,9 +44,9 @@ pub struct Post {
 
 impl Crew {
     /// A crew of nobody.
-    pub fn new(dir: RunDir, config: Config, view_address: IpAddr) -> Self {
+    pub fn new(dir: RunDir, config: Config, view: ViewArgs) -> Self {
         let (sender, words) = channel();
-        Self { dir, config, view_address, posts: BTreeMap::new(), sender, words }
+        Self { dir, config, view, posts: BTreeMap::new(), sender, words }
     }
 
     /// Starts the process for a role, the first or the next.
@@ -156,7 +156,15 @@ impl Crew {
                 ]
             }
             Role::Monitor => {
-                vec!["monitor".to_owned(), format!("--view-address={}", self.view_address)]
+                let ViewArgs { view, view_port, view_address } = self.view;
+                // The launcher opens the viewer: there is one launcher, and there may be many monitors.
+                let view = if view == Watching::Spawn { Watching::Live } else { view };
+                let port = view_port.map(|port| format!("--view-port={port}"));
+                ["monitor".to_owned(), format!("--view={view}")]
+                    .into_iter()
+                    .chain([format!("--view-address={view_address}")])
+                    .chain(port)
+                    .collect()
             }
         };
         // The folder's name may look like a flag.

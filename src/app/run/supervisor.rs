@@ -1,7 +1,7 @@
 //! A run under way: its processes are started, watched, started again, and stopped.
 
 use super::super::Failure;
-use super::super::cli::OutputArgs;
+use super::super::cli::{OutputArgs, Watching};
 use super::super::config::Config;
 use super::super::console::Stopwatch;
 use super::super::kinship::{Ear, FINISHED, READY, SERVING};
@@ -38,6 +38,8 @@ pub struct Supervisor<'a> {
     podium: Podium,
     chronicle: Chronicle,
     watch: Stopwatch,
+    /// Whether a viewer is to be opened.
+    opens_viewer: bool,
 }
 
 impl<'a> Supervisor<'a> {
@@ -56,11 +58,12 @@ impl<'a> Supervisor<'a> {
         let mut supervisor = Self {
             problem: config.problem(),
             ear,
-            crew: Crew::new(dir.clone(), config.clone(), output.view_address),
+            crew: Crew::new(dir.clone(), config.clone(), output.view),
             lookout: Lookout::open(domain, &config.archipelago())?,
             podium: Podium::of(dir, config)?,
             chronicle: Chronicle::open(dir, config, output.quiet)?,
             watch: Stopwatch::start(),
+            opens_viewer: output.view.view == Watching::Spawn,
             dir,
             harbour,
         };
@@ -134,9 +137,20 @@ impl<'a> Supervisor<'a> {
         } else if let Some(address) = line.strip_prefix(SERVING) {
             self.crew.post(role).gets_ready();
             self.chronicle.tell(&format!("watch it live:  rerun {address}"));
+            self.open_viewer(address);
         } else {
             self.chronicle.tell(&format!("{role}: {line}"));
         }
+    }
+
+    /// Opens a viewer, once, if that is wanted.
+    fn open_viewer(&mut self, address: &str) {
+        #[cfg(feature = "view")]
+        if std::mem::take(&mut self.opens_viewer) {
+            super::super::viewer::open(address.to_owned());
+        }
+        #[cfg(not(feature = "view"))]
+        let _ = (address, self.opens_viewer);
     }
 
     /// An island can evolve what comes after a generation, none if it begins from the seed.

@@ -1,10 +1,12 @@
 //! `islands verify`: whether a run's folder holds what it claims.
 //!
-//! `records` reads what each island left, and `rules` says what must hold of it; `claims` compares it with the
+//! `records` reads what each island left, and `rules` says what must hold of it; `ancestry`
+//! breeds the champions again; `claims` compares it with the
 //! files of the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
 //!
 //! Nothing is written, and a folder may hold anything: what is wrong is a sentence, not an end.
 
+mod ancestry;
 mod check;
 mod claims;
 mod records;
@@ -106,6 +108,7 @@ fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
     let terms = Terms::new(config, summary.is_of_the_end(config.generations));
     let (records, mut checks) = Records::read(dir, &terms);
     let sound = checks.iter().all(Check::is_fine);
+    checks.push(ancestry::check(dir, &terms, &records, sound));
     checks.insert(0, check_version(&terms));
     if let Some(said) = &config.seed_genomes {
         checks.insert(1, check_seeds(dir, said));

@@ -3,7 +3,7 @@
 use super::check::{Check, counted};
 use super::retrial::Claim;
 use super::rules::Terms;
-use crate::archipelago::{Champion, Island, Outbox};
+use crate::archipelago::{Births, Champion, Island, Outbox};
 use crate::creature::Gene;
 use crate::evolution::{Fitness, Individual};
 use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
@@ -20,6 +20,8 @@ pub struct Records {
     pub champions: Vec<Vec<Champion<Gene>>>,
     /// Each island's generations.
     pub reports: Vec<Vec<Entry>>,
+    /// Who was born on each island.
+    pub lineages: Vec<Vec<Births>>,
     /// What each island sent.
     pub outboxes: Vec<Vec<Outbox<Gene>>>,
 }
@@ -88,6 +90,7 @@ struct Reader<'a> {
     files: usize,
     checkpoints: Check,
     reports: Check,
+    lineages: Check,
     champions: Check,
     migrations: Check,
 }
@@ -100,6 +103,7 @@ impl<'a> Reader<'a> {
             files: 0,
             checkpoints: Check::of("checkpoints"),
             reports: Check::of("reports"),
+            lineages: Check::of("lineages"),
             champions: Check::of("champions"),
             migrations: Check::of("migrations"),
         }
@@ -120,6 +124,10 @@ impl<'a> Reader<'a> {
             ));
         }
 
+        let span = terms.span(state, |generation| generation + 1);
+        let rule = |births: &[_]| terms.lineages(births, &reports, state);
+        let lineages = read_log(&dir.lineages(island), &mut self.lineages, terms, span, rule);
+
         let span = usize::from(state.is_some())..=terms.config.generations as usize + 1;
         let rule = |champions: &[_]| terms.champions(champions, &reports, state);
         let champions = read_log(&dir.champions(island), &mut self.champions, terms, span, rule);
@@ -130,6 +138,7 @@ impl<'a> Reader<'a> {
 
         records.states.extend(newest);
         records.reports.push(reports);
+        records.lineages.push(lineages);
         records.champions.push(champions);
         records.outboxes.push(outboxes);
     }
@@ -170,10 +179,12 @@ impl<'a> Reader<'a> {
         fn all<T>(logs: &[Vec<T>]) -> usize {
             logs.iter().map(Vec::len).sum()
         }
-        let Self { files, checkpoints, reports, champions, migrations, .. } = self;
+        let Self { files, checkpoints, reports, lineages, champions, migrations, .. } = self;
+        let births = records.lineages.iter().flatten().map(|births| births.births.len()).sum();
         vec![
             checkpoints.checked(counted(files, "file")),
             reports.checked(counted(all(&records.reports), "generation")),
+            lineages.checked(counted(births, "birth")),
             champions.checked(counted(all(&records.champions), "champion")),
             migrations.checked(counted(all(&records.outboxes), "epoch")),
         ]

@@ -4,11 +4,11 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Champion, Island, Outbox};
+use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
 use crate::creature::Gene;
-use crate::evolution::Fitness;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
+use crate::evolution::{Fitness, Id};
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -106,6 +106,59 @@ impl<'a> Terms<'a> {
         }
         if !entry.seconds.is_finite() || entry.seconds < 0.0 {
             return wrong("took no time that there is");
+        }
+        Ok(())
+    }
+
+    /// What must hold of those who were born on an island.
+    pub fn lineages(
+        &self,
+        lineages: &[Births],
+        entries: &[Entry],
+        state: Option<&Island<Gene>>,
+    ) -> Result<(), String> {
+        for (generation, births) in (0..).zip(lineages) {
+            self.births(generation, births, entries.get(generation as usize))
+                .map_err(|reason| format!("what it says of generation {generation} {reason}"))?;
+        }
+        let Some(state) = state else { return Ok(()) };
+        let mut natives = state.population.iter().filter(|one| one.id.island == state.index);
+        let is_right = natives.all(|one| {
+            let births = lineages.get(one.id.generation as usize);
+            let birth = births.and_then(|births| births.births.get(one.id.index as usize));
+            birth == Some(&Birth { parents: one.parents, fitness: one.fitness })
+        });
+        match is_right {
+            true => Ok(()),
+            false => {
+                Err(format!("it disagrees with the checkpoint of generation {}", state.generation))
+            }
+        }
+    }
+
+    fn births(&self, generation: u32, found: &Births, entry: Option<&Entry>) -> Result<(), String> {
+        let wrong = |reason: &str| Err(reason.to_owned());
+        let Config { population, elites, islands, .. } = *self.config;
+        let brood = if generation == 0 { population } else { population - elites };
+        if found.generation != generation || found.births.len() != brood {
+            return wrong("is of another generation or size");
+        }
+        let lived = |id: Id| {
+            id.generation < generation && id.island < islands && (id.index as usize) < population
+        };
+        let can_be = |birth: &Birth| match birth.parents {
+            [None, None] => generation == 0,
+            [Some(mother), None] => lived(mother),
+            [Some(mother), Some(father)] => lived(mother) && lived(father),
+            [None, Some(_)] => false,
+        };
+        if !found.births.iter().all(can_be) {
+            return wrong("names parents that cannot have been");
+        }
+        let best = found.births.iter().map(|birth| birth.fitness).max();
+        let Some(lived) = entry.map(|entry| entry.report.statistics.best) else { return Ok(()) };
+        if best > Some(lived) || (elites == 0 && best != Some(lived)) {
+            return wrong("disagrees with its report");
         }
         Ok(())
     }

@@ -1,18 +1,15 @@
 //! What a recording holds, checked by reading it back.
 
+pub mod kit;
+
 use super::*;
-use crate::archipelago::island::Report;
-use crate::creature::morphology::Shape;
-use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Spread, Statistics};
-use crate::simulation::trajectory::{Pose, Trajectory};
+use crate::creature::Shape;
+use crate::evolution::Fitness;
+use kit::*;
 use nalgebra::{UnitQuaternion, Vector3};
-use re_log_encoding::DecoderApp;
 use rerun::StoreKind;
 use rerun::log::{Chunk, LogMsg};
 use std::f64::consts::TAU;
-use std::fs::File;
-use std::io::BufReader;
 use std::path::Path;
 
 #[test]
@@ -36,6 +33,121 @@ fn a_clip_is_one_batch_of_poses_an_entity() {
             }
         }
     }
+}
+
+#[test]
+fn a_champion_runs_along_its_lane_from_the_start_line_whichever_way_it_was_simulated() {
+    let way = |turn: f64| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+        let mut walk = walker(30, 2, 3.0);
+        for pose in walk.poses.iter_mut().flatten() {
+            let [x, y, z] = pose.position_m.map(f64::from);
+            let at = turn * Vector3::new(x + 3.0, y - 1.0, z);
+            pose.position_m = [at.x as f32, at.y as f32, at.z as f32];
+        }
+        walk.scoring_from_s = 0.1;
+        let chunks = record(|recorder| {
+            recorder.champion(&clip(0, 0, walk))?;
+            recorder.report(&report(0, 40))
+        });
+        points(&chunks, "/islands/0/follow", "Transform3D:translation")
+    };
+    for turn in [0.0, 0.7, 2.0, TAU / 2.0, -1.5] {
+        let follow = way(turn);
+        let ([first, ..], [.., last]) = (&follow[..], &follow[..]) else { panic!("{follow:?}") };
+        assert!(first[0].abs() < 0.7 && first[1].abs() < 0.05, "{turn}: {first:?}");
+        assert!(last[0] > first[0] + 0.1 && last[1].abs() < 0.05, "{turn}: {last:?}");
+    }
+}
+
+#[test]
+fn the_links_are_turned_into_the_lane_by_their_common_frame_alone() {
+    let walk = walker(60, 2, 0.5);
+    let heading = heading::Heading::of(&body(&walk.shapes).0, &walk);
+    let [x, y] = heading.turn([0.0, 0.0]);
+    let frame = heading.transform();
+    let chunks = record(|recorder| {
+        recorder.champion(&clip(0, 0, walk))?;
+        recorder.report(&report(0, 0))
+    });
+    let shift = points(&chunks, "/islands/0/champion", "Transform3D:translation");
+    assert_eq!(shift, [[x, y, 0.0]]);
+    assert!(frame.quaternion.is_some());
+}
+
+#[test]
+fn driven_joints_have_pins_that_turn_light_and_dark_with_their_motors() {
+    let chunks = record(|recorder| {
+        recorder.champion(&clip(0, 0, walker(30, 4, 0.3)))?;
+        recorder.report(&report(0, 0))
+    });
+    let path = "/islands/0/champion/motors";
+    let pins = only(&chunks, path, |chunk| chunk.num_rows() == 30);
+    assert_eq!(quaternions(pins).len(), 30 * 8);
+    let colors = instances(&chunks, path, "Cylinders3D:colors");
+    assert!(colors.len() > 5 && colors.iter().all(|&(_, pins)| pins == 8), "{colors:?}");
+    assert_ne!(palette::drive(1.0), palette::drive(-1.0));
+}
+
+#[test]
+fn whoever_flies_off_has_a_ruler_that_ends() {
+    let mut walk = walker(30, 1, 0.5);
+    for (frame, poses) in walk.poses.iter_mut().enumerate() {
+        poses.iter_mut().for_each(|pose| pose.position_m[0] = 1e9 * frame as f32);
+    }
+    let chunks = record(|recorder| {
+        recorder.champion(&clip(0, 0, walk))?;
+        recorder.report(&report(0, 0))
+    });
+    let rows = instances(&chunks, "/islands/0/ruler", "LineStrips3D:strips");
+    assert!(matches!(rows[..], [(0, 101..1_000)]), "{rows:?}");
+}
+
+#[test]
+fn feet_are_shown_where_they_touch_the_ground_and_leave_prints() {
+    let mut walk = walker(60, 1, 0.5);
+    // One leg stands; the other one hops, twice.
+    let times = walk.times_s.clone();
+    for (poses, time) in walk.poses.iter_mut().zip(times) {
+        poses.iter_mut().for_each(|pose| pose.rotation_xyzw = [0.0, 0.0, 0.0, 1.0]);
+        poses[1].position_m[2] = 0.18;
+        poses[2].position_m[2] = if (time * 8.0).floor() % 2.0 == 0.0 { 0.5 } else { 0.18 };
+    }
+    let chunks = record(|recorder| {
+        recorder.champion(&clip(0, 0, walk))?;
+        recorder.report(&report(0, 40))
+    });
+    let seen = |name: &str| -> Vec<usize> {
+        let path = format!("/islands/0/{name}");
+        let rows = instances(&chunks, &path, "Cylinders3D:centers");
+        rows.into_iter().map(|(_, count)| count).collect()
+    };
+    let touches = seen("contacts");
+    assert!(touches.contains(&1) && touches.contains(&2) && touches.iter().all(|&n| n > 0));
+    assert_eq!(seen("prints").last(), Some(&3), "one stands, and the other one lands twice");
+}
+
+#[test]
+fn a_line_goes_one_after_another_with_a_camera_that_follows() {
+    let lanes = (0..3).map(|hue| Lane { title: format!("gen {hue}"), hue }).collect();
+    let card = RunCard { program: Program::Line, lanes, has_family: false, ..card(1) };
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("line.rrd");
+    let mut recorder = recorder(&path, None, card).unwrap();
+    for slot in 0..3 {
+        recorder.play(&clip(slot, slot, walker(30, 2, 0.3)), slot).unwrap();
+        recorder.score(slot, slot, Fitness::new(1.0)).unwrap();
+    }
+    recorder.finish().unwrap();
+    let chunks = chunks(&path);
+    for lane in 0..3 {
+        let path = format!("/islands/{lane}/champion/boxes");
+        let rows = instances(&chunks, &path, "Boxes3D:half_sizes");
+        assert_eq!(rows, [(500_000_000 * i64::from(lane), 1)]);
+    }
+    assert_eq!(points(&chunks, "/line/follow", "Transform3D:translation").len(), 3 * 30);
+    let curve = chunks.iter().filter(|c| c.entity_path().to_string() == "/fitness/line");
+    assert_eq!(curve.filter(|c| !c.is_static()).map(Chunk::num_rows).sum::<usize>(), 6);
 }
 
 #[test]
@@ -130,15 +242,17 @@ fn every_island_has_a_view() {
     names.sort();
     let expected = [
         "Best fitness (m)",
-        "Diversity",
+        "Diversity (mean distance of genomes, 0–1)",
         "Events",
+        "Family",
         "Island 0",
         "Island 1",
+        "Island state",
         "Mean fitness (m)",
         "Race",
         "Run",
-        "Spread 0",
-        "Spread 1",
+        "Spread 0 (m)",
+        "Spread 1 (m)",
         "Topology",
     ];
     assert_eq!(names, expected);
@@ -248,135 +362,4 @@ fn demo() {
     }
     recorder.event(None, 30, "run finished").unwrap();
     recorder.finish().unwrap();
-}
-
-fn card(islands: u32) -> RunCard {
-    RunCard {
-        islands,
-        unit: "m".into(),
-        description_markdown: "# A run\n\nseed 1".into(),
-        topology_edges: (0..islands).map(|i| (i, (i + 1) % islands)).collect(),
-        pace: Pace { slot_s: 0.5, generations_per_slot: 10 },
-    }
-}
-
-fn clip(island: u32, generation: u32, trajectory: Trajectory) -> Clip {
-    let label = format!("gen {generation} · 1.50 m");
-    Clip { island, generation, label, trajectory }
-}
-
-fn report(island: u32, generation: u32) -> Report {
-    let g = f64::from(generation);
-    let best = Fitness::new((0.5 + 0.1 * f64::from(island)) * (g / 3.0).floor());
-    let mean = Fitness::new(0.6 * best.get());
-    let statistics = Statistics {
-        best,
-        mean,
-        median: mean,
-        diversity: 1.0 / (1.0 + g * (1.0 + 0.2 * f64::from(island)) / 10.0),
-        spread: Spread::of(&(0..50).map(|i| f64::from(i * i) / 1000.0).collect::<Vec<_>>()),
-    };
-    Report { island, generation, statistics, effort: Effort::default(), immigrants: 0 }
-}
-
-/// A box that walks along x on pairs of legs of two cylinders each, at 60 frames a second.
-fn walker(frames: usize, pairs: usize, speed_mps: f64) -> Trajectory {
-    let half = Vector3::new(0.2 * pairs as f64, 0.2, 0.13);
-    let leg = Shape::Cylinder { radius_m: 0.06, length_m: 0.36 };
-    let mut shapes = vec![Shape::Cuboid { half_extents_m: half }];
-    shapes.extend(std::iter::repeat_n(leg, pairs * 2));
-    let times_s: Vec<f64> = (0..frames).map(|frame| frame as f64 / 60.0).collect();
-    let poses = times_s.iter().map(|&time| stride(time, pairs, half, speed_mps)).collect();
-    Trajectory { shapes, times_s, poses, scoring_from_s: 0.0 }
-}
-
-fn stride(time_s: f64, pairs: usize, half: Vector3<f64>, speed_mps: f64) -> Vec<Pose> {
-    let trunk = Vector3::new(speed_mps * time_s, 0.1 * time_s.sin(), 0.42);
-    let roll = UnitQuaternion::from_euler_angles(0.05 * (TAU * time_s).sin(), 0.0, 0.0);
-    let mut poses = vec![pose(trunk, roll)];
-    for pair in 0..pairs {
-        for side in [-1.0, 1.0] {
-            let along = half.x * (2.0 * (pair as f64 + 0.5) / pairs as f64 - 1.0);
-            let phase =
-                TAU * time_s * 1.2 + if (side > 0.0) ^ (pair % 2 == 0) { 0.0 } else { TAU / 2.0 };
-            let swing = UnitQuaternion::from_euler_angles(-0.3 * side, 0.6 * phase.sin(), 0.0);
-            let hip = trunk + Vector3::new(along, side * half.y, -0.05);
-            poses.push(pose(hip + swing * Vector3::new(0.0, 0.0, -0.18), swing));
-        }
-    }
-    poses
-}
-
-fn pose(position: Vector3<f64>, rotation: UnitQuaternion<f64>) -> Pose {
-    let position_m = [position.x as f32, position.y as f32, position.z as f32];
-    let [i, j, k, w] = [rotation.i, rotation.j, rotation.k, rotation.w].map(|v| v as f32);
-    Pose { position_m, rotation_xyzw: [i, j, k, w] }
-}
-
-/// What a recording of two islands holds in the end.
-fn record(write: impl FnOnce(&mut Recorder) -> Result<(), ViewError>) -> Vec<Chunk> {
-    let directory = tempfile::tempdir().unwrap();
-    let path = directory.path().join("run.rrd");
-    let mut recorder = recorder(&path, None, card(2)).unwrap();
-    write(&mut recorder).unwrap();
-    recorder.finish().unwrap();
-    chunks(&path)
-}
-
-fn recorder(path: &Path, live: Option<Live>, card: RunCard) -> Result<Recorder, ViewError> {
-    let folder = path.parent().unwrap();
-    Recorder::create(Draft::within(folder, path)?, live, card)
-}
-
-fn chunks(path: &Path) -> Vec<Chunk> {
-    messages(path).iter().flat_map(|message| chunk_of(message, StoreKind::Recording)).collect()
-}
-
-fn messages(path: &Path) -> Vec<LogMsg> {
-    let file = BufReader::new(File::open(path).unwrap());
-    DecoderApp::decode_eager(file).unwrap().map(Result::unwrap).collect()
-}
-
-fn chunk_of(message: &LogMsg, kind: StoreKind) -> Option<Chunk> {
-    match message {
-        LogMsg::ArrowMsg(store, arrow) if store.kind() == kind => {
-            Some(Chunk::from_arrow_msg(arrow).unwrap())
-        }
-        _ => None,
-    }
-}
-
-fn only<'a>(chunks: &'a [Chunk], path: &str, wanted: impl Fn(&Chunk) -> bool) -> &'a Chunk {
-    let found: Vec<_> = chunks
-        .iter()
-        .filter(|chunk| chunk.entity_path().to_string() == path && wanted(chunk))
-        .collect();
-    assert_eq!(found.len(), 1, "{path}");
-    found[0]
-}
-
-/// The film time in nanoseconds and the number of instances of each row of a component.
-fn instances(chunks: &[Chunk], path: &str, component: &'static str) -> Vec<(i64, usize)> {
-    let mut rows = Vec::new();
-    for chunk in chunks.iter().filter(|chunk| chunk.entity_path().to_string() == path) {
-        let Some(column) = chunk.components().get(component.into()) else { continue };
-        let times = chunk.timelines().values().find(|t| t.name() == PLAYBACK).unwrap().times_raw();
-        rows.extend(
-            times.iter().enumerate().map(|(row, &time)| (time, column.list_array.value(row).len())),
-        );
-    }
-    rows.sort_unstable();
-    rows
-}
-
-fn quaternions(chunk: &Chunk) -> Vec<[f32; 4]> {
-    let component = chunk
-        .components_identifiers()
-        .find(|component| component.as_str().ends_with(":quaternions"))
-        .unwrap();
-    chunk.iter_slices::<[f32; 4]>(component).flatten().copied().collect()
-}
-
-fn texts(chunk: &Chunk, component: &'static str) -> Vec<String> {
-    chunk.iter_slices::<String>(component.into()).flatten().map(|text| text.to_string()).collect()
 }

@@ -1,0 +1,203 @@
+//! Who descends from whom.
+//!
+//! Every individual is born once, on one island, and is known by its [`Id`] wherever it goes. Who was born of whom
+//! is all that has to be kept of a generation: genomes need not be, since an offspring's genome depends on its
+//! parents' genomes and on its place alone. So a hundred bytes tell what a whole ancestry looked like.
+
+use super::{Archipelago, Island};
+use crate::evolution::generation::{self, Moment};
+use crate::evolution::{Fitness, Id, Problem};
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How an individual came to be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Birth {
+    /// Whom it comes from: none in generation 0, one where crossover did not happen, else two.
+    pub parents: [Option<Id>; 2],
+    /// What it is worth.
+    pub fitness: Fitness,
+}
+
+/// All who were born on an island in a generation, in the order of their index.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Births {
+    /// The generation.
+    pub generation: u32,
+    /// Each of them.
+    pub births: Vec<Birth>,
+}
+
+impl Births {
+    /// Those who were born in the newest generation of an island: all offspring live for one generation at least.
+    pub fn of<G>(island: &Island<G>) -> Self {
+        let here = |id: Id| (id.island, id.generation) == (island.index, island.generation);
+        let born = island.population.iter().filter(|individual| here(individual.id));
+        let births = born.map(|one| Birth { parents: one.parents, fitness: one.fitness });
+        Self { generation: island.generation, births: births.collect() }
+    }
+}
+
+/// The births of all islands, as far as they are known.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Lineage {
+    islands: BTreeMap<u32, Vec<Births>>,
+}
+
+/// Why a genome cannot be bred again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Gap {
+    /// Nothing is known of an ancestor.
+    #[error("nothing is known of the ancestor {0}")]
+    Unknown(Id),
+    /// An offspring of these parents has another number of them: it was bred by another program, or under
+    /// other settings.
+    #[error("{0} cannot have the parents that it is said to have")]
+    Unlike(Id),
+}
+
+impl Lineage {
+    /// The next generation of an island; they come in order, from 0.
+    pub fn push(&mut self, island: u32, births: Births) {
+        self.islands.entry(island).or_default().push(births);
+    }
+
+    /// The generations that are known of an island.
+    pub fn generations(&self, island: u32) -> usize {
+        self.islands.get(&island).map_or(0, Vec::len)
+    }
+
+    /// How an individual came to be, if that is known. Nobody is born before its parents: what says so is not
+    /// believed.
+    pub fn birth(&self, id: Id) -> Option<Birth> {
+        let births = self.islands.get(&id.island)?.get(id.generation as usize)?;
+        let birth = *births.births.get(id.index as usize)?;
+        let is_older = |parent: Id| parent.generation < id.generation;
+        birth.parents.into_iter().flatten().all(is_older).then_some(birth)
+    }
+
+    /// The mothers of an individual from the first one on, itself the last: whose root the bodies of the line have,
+    /// since a genome begins with its mother's genes.
+    pub fn line(&self, id: Id) -> Vec<Id> {
+        let mother = |&id: &Id| self.birth(id)?.parents[0];
+        let mut line: Vec<Id> = std::iter::successors(Some(id), mother).collect();
+        line.reverse();
+        line
+    }
+
+    /// The genomes of individuals, bred again from generation 0 on.
+    ///
+    /// # Errors
+    /// If an ancestor is not known, or was bred otherwise.
+    pub fn genomes<P: Problem>(
+        &self,
+        ids: &[Id],
+        problem: &P,
+        archipelago: &Archipelago,
+    ) -> Result<BTreeMap<Id, Vec<P::Gene>>, Gap> {
+        let mut genomes: BTreeMap<Id, Vec<P::Gene>> = BTreeMap::new();
+        // Parents come before their offspring.
+        for (_, id) in self.ancestors(ids)? {
+            let parents = self.birth(id).ok_or(Gap::Unknown(id))?.parents;
+            let [mother, father] = parents.map(|id| id.map(|id| &genomes[&id][..]));
+            let strategy = &archipelago.strategy;
+            let source = archipelago.source(id.island);
+            let genome = match mother {
+                None => generation::first(problem, strategy, source, id.index as usize),
+                Some(mother) => {
+                    let moment = Moment { source, generation: id.generation };
+                    let (index, other) = (id.index as usize, father.unwrap_or(mother));
+                    let (genome, two_parents) =
+                        generation::breed(problem, strategy, moment, index, mother, other);
+                    if two_parents != father.is_some() {
+                        return Err(Gap::Unlike(id));
+                    }
+                    genome
+                }
+            };
+            genomes.insert(id, genome);
+        }
+        genomes.retain(|id, _| ids.contains(id));
+        Ok(genomes)
+    }
+
+    /// All ancestors of individuals and themselves, by generation.
+    fn ancestors(&self, ids: &[Id]) -> Result<BTreeSet<(u32, Id)>, Gap> {
+        let mut found = BTreeSet::new();
+        let mut open = ids.to_vec();
+        while let Some(id) = open.pop() {
+            if found.insert((id.generation, id)) {
+                let birth = self.birth(id).ok_or(Gap::Unknown(id))?;
+                open.extend(birth.parents.into_iter().flatten());
+            }
+        }
+        Ok(found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Migration;
+    use super::super::lockstep;
+    use super::super::tests::toy::{self, Toy};
+    use super::*;
+    use crate::evolution::Individual;
+
+    fn archipelago() -> Archipelago {
+        toy::archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 })
+    }
+
+    #[test]
+    fn everybody_can_be_bred_again_from_the_births_alone() {
+        let archipelago = archipelago();
+        let (mut lineage, mut everybody) = (Lineage::default(), BTreeMap::new());
+        lockstep::run(&Toy, &archipelago, 12, |step| {
+            lineage.push(step.island.index, Births::of(&step.island));
+            everybody.extend(step.island.population.iter().map(|one| (one.id, one.clone())));
+        });
+        let ids: Vec<Id> = everybody.keys().copied().collect();
+        let genomes = lineage.genomes(&ids, &Toy, &archipelago).unwrap();
+        let (mut crossed, mut moved) = (0, 0);
+        for Individual { id, parents, genome, fitness } in everybody.into_values() {
+            assert_eq!(lineage.birth(id), Some(Birth { parents, fitness }));
+            assert_eq!(genomes[&id], genome, "{id}");
+            crossed += usize::from(parents[1].is_some());
+            moved += usize::from(parents.iter().flatten().any(|it| it.island != id.island));
+        }
+        assert!(crossed > 0 && moved > 0, "{crossed} crossed, {moved} moved");
+    }
+
+    #[test]
+    fn a_line_goes_from_a_random_genome_to_whom_it_is_of() {
+        let mut lineage = Lineage::default();
+        lockstep::run(&Toy, &archipelago(), 12, |step| {
+            lineage.push(step.island.index, Births::of(&step.island));
+        });
+        let last = Id { island: 1, generation: 12, index: 0 };
+        let line = lineage.line(last);
+        assert_eq!((line[0].generation, line.last()), (0, Some(&last)));
+        for pair in line.windows(2) {
+            assert_eq!(lineage.birth(pair[1]).unwrap().parents[0], Some(pair[0]));
+        }
+    }
+
+    #[test]
+    fn what_is_not_known_and_what_cannot_have_been_is_told_apart() {
+        let id = |generation, index| Id { island: 0, generation, index };
+        let birth = |parents| Birth { parents, fitness: Fitness::WORST };
+        let breed = |parents: [Option<Id>; 2]| {
+            let mut lineage = Lineage::default();
+            lineage.push(0, Births { generation: 0, births: vec![birth([None; 2])] });
+            lineage.push(0, Births { generation: 1, births: vec![birth(parents)] });
+            lineage.genomes(&[id(1, 0)], &Toy, &archipelago()).map(|_| ())
+        };
+        let parent = Some(id(0, 0));
+        assert_eq!(breed([Some(id(0, 9)), None]), Err(Gap::Unknown(id(0, 9))));
+        assert_eq!(breed([Some(id(1, 0)), None]), Err(Gap::Unknown(id(1, 0))));
+        let found = [breed([parent, None]), breed([parent, parent])];
+        assert!(
+            found.contains(&Ok(())) && found.contains(&Err(Gap::Unlike(id(1, 0)))),
+            "{found:?}"
+        );
+    }
+}
