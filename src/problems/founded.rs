@@ -43,10 +43,6 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.evaluate(genome)
     }
 
-    fn confirm(&self, genome: &[P::Gene]) -> Option<Evaluation> {
-        self.problem.confirm(genome)
-    }
-
     fn crossover(
         &self,
         a: &[P::Gene],
