@@ -82,8 +82,8 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     let names: Vec<_> = goldens.iter().map(|path| path.file_stem().unwrap()).collect();
     let expected = [
         "course-coursework",
-        "debug",
         "debug-featherstone",
+        "debug",
         "travel-lecture",
         "walk-featherstone",
         "walk-native",

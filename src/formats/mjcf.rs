@@ -7,15 +7,12 @@
 
 use super::xml::{Escaped, Triple};
 use crate::creature::{Creature, Joint, JointKind, Link, Morphology, Motor, Shape};
-use crate::simulation::trial::FRICTION;
+use crate::problems::Task;
+use crate::simulation::trial::GRIP;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
 use std::fmt::{self, Display, Formatter};
 use std::io::{self, Write};
 
-/// Steps a second, as in our trials.
-const STEPS_PER_S: f64 = 240.0;
-/// Gravity, in m/s², as in our trials.
-const GRAVITY_M_S2: f64 = 9.81;
 /// The body begins with its lowest point so high, in metres, as in our trials.
 const LOWEST_M: f64 = 0.1;
 
@@ -25,20 +22,21 @@ const LOWEST_M: f64 = 0.1;
 /// If the output cannot be written.
 pub fn write(creature: &Creature, name: &str, mut output: impl Write) -> io::Result<()> {
     let Creature { morphology, controller } = creature;
-    let friction = FRICTION * FRICTION;
+    let trial = Task::Walk.trial();
     writeln!(
         output,
         r#"<?xml version="1.0" encoding="utf-8"?>
 <mujoco model="{name}">
   <compiler angle="radian" autolimits="true" inertiafromgeom="false"/>
-  <option timestep="{timestep}" gravity="0 0 -{GRAVITY_M_S2}" integrator="implicitfast" cone="elliptic"/>
+  <option timestep="{timestep}" gravity="0 0 -{gravity}" integrator="implicitfast" cone="elliptic"/>
   <default>
-    <geom contype="1" conaffinity="0" condim="3" friction="{friction} 0 0" rgba="0.8 0.5 0.3 1"/>
+    <geom contype="1" conaffinity="0" condim="3" friction="{GRIP} 0 0" rgba="0.8 0.5 0.3 1"/>
   </default>
   <custom>
     <numeric name="control_period" data="{period_s}"/>"#,
         name = Escaped(name),
-        timestep = 1.0 / STEPS_PER_S,
+        timestep = trial.time_s(1),
+        gravity = trial.gravity_m_s2,
         period_s = controller.period_s,
     )?;
     let motors = || controller.motors.iter().enumerate().filter_map(|(i, m)| Some((i, (*m)?)));
@@ -80,7 +78,7 @@ fn write_actuator(
         return Ok(());
     }
     // As stiff as can be: one that is stiffer, and at the bound of its torque, would overshoot within a step.
-    let gain = swung_inertia_kg_m2(morphology, index) * STEPS_PER_S;
+    let gain = swung_inertia_kg_m2(morphology, index) * f64::from(Task::Walk.trial().steps_per_s);
     writeln!(
         output,
         r#"    <velocity name="motor_{index}" joint="joint_{index}" kv="{gain}" forcerange="-{torque} {torque}"/>"#

@@ -43,10 +43,6 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.evaluate(genome)
     }
 
-    fn confirm(&self, genome: &[P::Gene]) -> Option<Evaluation> {
-        self.problem.confirm(genome)
-    }
-
     fn crossover(
         &self,
         a: &[P::Gene],
@@ -59,6 +55,10 @@ impl<P: Problem> Problem for Founded<P> {
 
     fn mutate(&self, genome: &mut Vec<P::Gene>, variation: &Variation, rng: &mut Stream) {
         self.problem.mutate(genome, variation, rng);
+    }
+
+    fn confirm(&self, genome: &[P::Gene]) -> Option<Evaluation> {
+        self.problem.confirm(genome)
     }
 
     fn cost(&self, genome: &[P::Gene]) -> u64 {

@@ -1,7 +1,7 @@
 //! Guards against what no body does: a solver that blows up must not pass for an athlete.
 
 use super::assembly::Assembly;
-use super::trial::{FRICTION, Trial};
+use super::trial::{GRIP, Trial};
 use super::world::World;
 use crate::creature::Creature;
 use crate::evolution::Outcome;
@@ -93,7 +93,7 @@ impl Ledger {
         if let Some(before_m_s) = self.velocity_m_s {
             let change_m_s = velocity_m_s - before_m_s;
             let support_m_s = change_m_s.z + self.gravity_m_s2 * self.period_s;
-            let grip_m_s = FRICTION * FRICTION * support_m_s;
+            let grip_m_s = GRIP * support_m_s;
             self.excess_m_s += (change_m_s.xy().norm() - grip_m_s).max(0.0);
         }
         (self.position_m, self.velocity_m_s) = (position_m, Some(velocity_m_s));

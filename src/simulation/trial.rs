@@ -39,6 +39,9 @@ pub const LEAN_RAD: f64 = TAU / 72.0;
 /// Friction of the ground and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
 
+/// The coefficient of friction between the ground and a link.
+pub const GRIP: f64 = FRICTION * FRICTION;
+
 impl Trial {
     /// The simulated time after a number of steps, in seconds.
     pub fn time_s(&self, step: u32) -> f64 {

@@ -140,6 +140,7 @@ fn a_body_made_by_hand_gets_as_far_as_in_other_engines() {
             ("paddle_walker", 0.05, 0.60),
         ] {
             let distance_m = body(name).distance_m(engine);
+            eprintln!("{name} in {engine}: {distance_m:.4} m");
             assert!((least_m..most_m).contains(&distance_m), "{engine}: {name} {distance_m} m");
         }
     }
@@ -149,6 +150,7 @@ fn a_body_made_by_hand_gets_as_far_as_in_other_engines() {
 fn a_body_that_trembles_moves_along_as_long_a_path_as_in_other_engines() {
     for engine in Engine::ALL {
         let path_m = body("hinge_flap").path_m(engine);
+        eprintln!("hinge_flap in {engine}: {path_m:.4} m");
         assert!((0.24..0.36).contains(&path_m), "{engine}: {path_m} m");
     }
 }
@@ -158,6 +160,7 @@ fn a_body_without_a_motor_lies_where_it_fell() {
     for engine in Engine::ALL {
         for name in ["fallbox", "fallcyl_side"] {
             let distance_m = body(name).distance_m(engine);
+            eprintln!("{name} in {engine}: {distance_m:.4} m");
             assert!(distance_m < 0.02, "{engine}: {name} {distance_m} m");
         }
     }

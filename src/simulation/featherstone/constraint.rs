@@ -4,7 +4,7 @@
 //! root only. Rows are of like size whatever the masses are, so single precision carries them: they look for a
 //! small change of velocities that are known in double precision.
 
-use super::super::trial::FRICTION;
+use super::super::trial;
 use super::contact::Touch;
 use super::factor::Factor;
 use super::spatial::Spatial;
@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use std::ops::Range;
 
 /// The coefficient of friction between the ground and a link.
-const GRIP: f32 = (FRICTION * FRICTION) as f32;
+const GRIP: f32 = trial::GRIP as f32;
 
 /// The share of a penetration that a step takes back (Baumgarte 1972).
 const PUSH_SHARE: f64 = 0.2;

@@ -135,7 +135,7 @@ fn hinge_turn(rest: &Matrix3<f64>, (cos, sin): (f64, f64)) -> Matrix3<f64> {
     Matrix3::from_columns(&[x.into_owned(), y * cos + z * sin, z * cos - y * sin])
 }
 
-/// The tangent of half an angle, to the third order: a turn that is right to 1e-7 of itself at 24 rad/s and 240 Hz.
+/// The tangent of half an angle, to the third order: a turn that is right to 1e-6 of itself at 24 rad/s and 240 Hz.
 #[inline]
 fn tan_half(angle_rad: f64) -> f64 {
     angle_rad * (0.5 + angle_rad * angle_rad * (1.0 / 24.0))

@@ -17,9 +17,8 @@
 //! every direction in which it can move: sᵀ Σ(h⁺ − h − impulses) = 0 for each axis s, d'Alembert's principle over
 //! a step. As in leapfrog, velocities belong to the middle of the way between two configurations, and are evaluated
 //! there: half a step ahead of where the body is. The axes of that equation belong between two such middles;
-//! [`FeatherstoneWorld::remember`] makes up for that half a step. An undriven chain keeps its energy to 3 in 10,000
-//! over ten seconds this way, where explicit Coriolis forces or axes that are off by half a step gain or lose a
-//! tenth and more.
+//! [`FeatherstoneWorld::swing`] makes up for that half a step. An undriven chain keeps its energy to 1 in 1,000 over
+//! ten seconds this way; with axes or places that are off by half a step some gain a third or lose a tenth.
 //!
 //! # Motors that hold
 //!

@@ -1,7 +1,7 @@
 //! What slides comes to rest after v² / 2µg.
 
 use super::super::Engine;
-use super::super::trial::FRICTION;
+use super::super::trial::GRIP;
 use super::bodies::{Body, Hinge};
 use super::lab::Lab;
 use super::{GRAVITY_M_S2, TRIAL};
@@ -48,7 +48,7 @@ fn error(engine: Engine, creature: &Creature, direction_rad: f64) -> f64 {
     let direction = Vector3::new(libm::cos(direction_rad), libm::sin(direction_rad), 0.0);
     lab.world.kick(direction * SPEED_M_S, Vector3::zeros());
     lab.run(2.0);
-    let allowed_m = SPEED_M_S * SPEED_M_S / (2.0 * FRICTION * FRICTION * GRAVITY_M_S2);
+    let allowed_m = SPEED_M_S * SPEED_M_S / (2.0 * GRIP * GRAVITY_M_S2);
     (lab.centre_of_mass() - start_m).xy().norm() / allowed_m - 1.0
 }
 
