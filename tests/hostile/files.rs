@@ -63,7 +63,15 @@ fn an_unfriendly_genome_file_is_refused_with_a_sentence_and_soon() {
     let said = refusals(&world, "evaluate FILE", &files);
     assert_eq!(refusals(&world, "inspect FILE --json", &files), said);
     #[cfg(feature = "view")]
-    assert_eq!(refusals(&world, "replay FILE --out film.rrd", &files), said);
+    {
+        // A folder may be that of a run.
+        let [of_a_file, of_a_folder] = [
+            "cannot use folder: it is no regular file; name a file with a gene a line, such as a run's champion.csv",
+            "there is no run in folder: name the folder of one, such as runs/walk-seed7",
+        ];
+        let expected = said.replace(of_a_file, of_a_folder);
+        assert_eq!(refusals(&world, "replay FILE --out film.rrd", &files), expected);
+    }
     expect![[r#"
         cannot use endless: it is no regular file; name a file with a gene a line, such as a run's champion.csv
         cannot use pipe: it is no regular file; name a file with a gene a line, such as a run's champion.csv
