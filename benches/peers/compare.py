@@ -34,7 +34,7 @@ little; nevertheless let it rest.
 
 Agreement is told by Spearman's rank correlation between each pair of engines over the mixed set, of the root's
 displacement (in space, from after the first step, as the course has it) and of the length of its path over the ground
-(sampled every 0.1 s, where the engine tells it). The bodies made by hand (tests/fixtures/physics/hand) start at their
+(sampled every 0.1 s; of islands it is in `cargo bench --bench survey -- engines`). The bodies made by hand (tests/fixtures/physics/hand) start at their
 own height; their distance is over the ground, their path in space and sampled at every step.
 """
 

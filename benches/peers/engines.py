@@ -151,21 +151,20 @@ class Score:
 
 @dataclass(frozen=True)
 class Islands:
-    """The program, with one of its engines, or with its only one."""
+    """The program, with one of its engines."""
 
     program: Path
-    engine: str | None
+    engine: str
 
     @property
     def name(self) -> str:
         """What tables call it."""
-        return f"islands {self.engine}" if self.engine else "islands"
+        return f"islands {self.engine}"
 
     def evaluate(self, creatures: Sequence[Creature]) -> tuple[float, list[Score]]:
         """The seconds that the program counts for creatures, on one thread, and their scores."""
         options = ["--profile", "coursework", "--task", "course", "--threads", "1", "--json"]
-        if self.engine:
-            options += ["--engine", self.engine]
+        options += ["--engine", self.engine]
         genomes = [creature.genome for creature in creatures]
         command: list[str | Path] = [self.program, "evaluate", *options, *genomes]
         printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
@@ -175,12 +174,9 @@ class Islands:
 
 def _score(genome: dict) -> Score:
     sound = genome["outcome"] == "scored"
-    return Score(genome["fitness"] if sound else math.nan, genome.get("path_m"), sound)
+    return Score(genome["fitness"] if sound else math.nan, None, sound)
 
 
 def engines_of(program: Path) -> list[Islands]:
     """The program with each engine that it has."""
-    described = subprocess.run([program, "evaluate", "--help"], capture_output=True, text=True, check=True).stdout
-    if "--engine" not in described:
-        return [Islands(program, None)]
-    return [Islands(program, engine) for engine in ("rapier", "featherstone") if engine in described]
+    return [Islands(program, engine) for engine in ("rapier", "featherstone")]

@@ -19,7 +19,8 @@ pub enum Task {
     /// [`progress::away_m`].
     #[default]
     Walk,
-    /// To keep moving: the length of that path, the lectures' later fitness: [`progress::travelled_m`].
+    /// To keep moving: the length of the path of its centre of mass, the lectures' later fitness:
+    /// [`progress::travelled_m`].
     Travel,
     /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
     /// It counts the fall, and is here for comparison.

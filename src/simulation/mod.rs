@@ -45,7 +45,7 @@ pub struct Measurement {
     /// The centre of mass at the end, in metres.
     pub centre_last_m: Vector3<f64>,
     /// The length of the horizontal path of the centre of mass while scoring, in metres, from positions
-    /// 0.1 s apart: trembling in place is not travelling.
+    /// 0.1 s apart.
     pub path_m: f64,
     /// Where the centre of mass was above the ground, in metres: when scoring began, and every
     /// [`TRACK_SAMPLE_S`] since.

@@ -217,14 +217,13 @@ impl FactorLink {
         self.scale = inverse_root(pivot);
         self.unit_wrench = wrench * self.scale;
     }
-}
 
-impl FactorLink {
     /// The impulse of a swing, so far as it may change the hinge's rate.
     #[inline]
     fn bounded(&self, swing: &Swing) -> f64 {
         let bound = swing.change_rad_s_max * inverse(self.scale * self.scale);
-        swing.impulse_nms.clamp(-bound, bound)
+        // Unlike clamp this needs no bound to be a number.
+        swing.impulse_nms.max(-bound).min(bound)
     }
 }
 

@@ -70,13 +70,7 @@ impl Configuration {
         for (index, link) in model.links.iter().enumerate().skip(1) {
             let parent = &places[link.parent];
             let rest = product(&parent.rotation, &link.parent_from_rest);
-            let (cos, sin) = self.hinges[index];
-            let (y, z) = (rest.column(1), rest.column(2));
-            let rotation = Matrix3::from_columns(&[
-                rest.column(0).into(),
-                y * cos + z * sin,
-                z * cos - y * sin,
-            ]);
+            let rotation = hinge_turn(&rest, self.hinges[index]);
             let origin_m = parent.origin_m + applied(&parent.rotation, &link.hinge_m);
             places[index] = Place::of(link, rotation, origin_m);
         }

@@ -49,7 +49,7 @@ use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use solver::Solver;
 use spatial::Spatial;
 
-/// After so many attempts at a step all motors may slip.
+/// The last of so many attempts at a step lets all motors slip.
 const ATTEMPTS_MAX: usize = 4;
 
 /// The motion of an axis may change its hinge's rate by this share of its parent's angular speed in a step. What
@@ -124,10 +124,10 @@ impl FeatherstoneWorld {
             is_held: model.links.iter().map(|link| link.has_motor()).collect(),
             motor_impulses_nms: vec![0.0; links],
             contact_impulses_ns: vec![[0.0; 3]; model.solids.len() * POINTS_PER_SOLID],
-            touches: Vec::new(),
+            touches: Vec::with_capacity(model.solids.len() * POINTS_PER_SOLID),
             factor: Factor::new(&model),
             whitened: Whitened { root: [0.0; 6], hinges: vec![0.0; links] },
-            solver: Solver::new(links),
+            solver: Solver::new(links, model.solids.len() * POINTS_PER_SOLID),
             model,
         }
     }
@@ -311,6 +311,8 @@ impl World for FeatherstoneWorld {
         self.momenta.fill(Spatial::ZERO);
         self.rates_rad_s.fill(0.0);
         self.swings.fill(Swing::default());
+        self.midway.clone_from(&self.configuration);
+        self.midway.place(&self.model, &mut self.places);
     }
 
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {

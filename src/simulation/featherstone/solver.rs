@@ -31,13 +31,13 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Room for a body.
-    pub fn new(links: usize) -> Self {
+    /// Room for a body of so many links that may touch the ground at so many points: a step allocates nothing.
+    pub fn new(links: usize, points: usize) -> Self {
         Self {
-            motors: Vec::new(),
-            contacts: Vec::new(),
-            motor_entries: Vec::new(),
-            contact_entries: Vec::new(),
+            motors: Vec::with_capacity(links),
+            contacts: Vec::with_capacity(points),
+            motor_entries: Vec::with_capacity(links * links),
+            contact_entries: Vec::with_capacity(points * links),
             hinges: vec![0.0; links],
         }
     }
