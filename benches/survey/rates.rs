@@ -84,7 +84,7 @@ fn excess_m_s(creature: &Creature, trial: &Trial, film: &Trajectory) -> f64 {
             links.iter().zip(poses).map(moment).sum::<Vector3<f64>>() / mass_kg
         });
     let Some(first_m) = centres_m.next() else { return 0.0 };
-    let mut ledger = Ledger::new(trial, trial.steps_per_s / 10, first_m);
+    let mut ledger = Ledger::new(trial, trial.steps_per_s / 10, first_m, Vector3::zeros());
     // A body that goes over the limit goes on, to see how far.
     for centre_m in centres_m {
         let _ = ledger.enter(centre_m);

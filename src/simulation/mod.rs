@@ -152,7 +152,7 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
         let sample_steps = trial.steps_in(TRACK_SAMPLE_S);
         let mut track_m = Vec::with_capacity(trial.samples() + 1);
         track_m.push(centre_first_m.xy());
-        let mut ledger = Ledger::new(trial, sample_steps, centre_first_m);
+        let mut ledger = Ledger::new(trial, sample_steps, centre_first_m, Vector3::zeros());
         let control_steps = trial.steps_in(creature.controller.period_s);
         let mut actuators = Actuators::new(&creature.controller, self.assembly);
         for scored in 0..trial.steps_in_exactly(trial.scored_s) {

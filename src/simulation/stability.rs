@@ -71,18 +71,28 @@ pub struct Ledger {
     period_s: f64,
     gravity_m_s2: f64,
     position_m: Vector3<f64>,
-    velocity_m_s: Option<Vector3<f64>>,
+    velocity_m_s: Vector3<f64>,
+    /// The share of a period's gravity that the next change of mean velocity has seen.
+    share: f64,
     excess_m_s: f64,
 }
 
 impl Ledger {
-    /// A ledger of positions that many steps apart, the first of them given.
-    pub fn new(trial: &Trial, steps: u32, position_m: Vector3<f64>) -> Self {
+    /// A ledger of positions that many steps apart, for a body that has this position and velocity at its beginning.
+    ///
+    /// From that velocity to the mean one of the first period T it is (1/T) ∫ (T - t) a dt, in which gravity counts half.
+    pub fn new(
+        trial: &Trial,
+        steps: u32,
+        position_m: Vector3<f64>,
+        velocity_m_s: Vector3<f64>,
+    ) -> Self {
         Self {
             period_s: trial.time_s(steps),
             gravity_m_s2: trial.gravity_m_s2,
             position_m,
-            velocity_m_s: None,
+            velocity_m_s,
+            share: 0.5,
             excess_m_s: 0.0,
         }
     }
@@ -90,13 +100,11 @@ impl Ledger {
     /// Enters the next position of the centre of mass.
     pub fn enter(&mut self, position_m: Vector3<f64>) -> Result<(), Outcome> {
         let velocity_m_s = (position_m - self.position_m) / self.period_s;
-        if let Some(before_m_s) = self.velocity_m_s {
-            let change_m_s = velocity_m_s - before_m_s;
-            let support_m_s = change_m_s.z + self.gravity_m_s2 * self.period_s;
-            let grip_m_s = GRIP * support_m_s;
-            self.excess_m_s += (change_m_s.xy().norm() - grip_m_s).max(0.0);
-        }
-        (self.position_m, self.velocity_m_s) = (position_m, Some(velocity_m_s));
+        let change_m_s = velocity_m_s - self.velocity_m_s;
+        let support_m_s = change_m_s.z + self.share * self.gravity_m_s2 * self.period_s;
+        let grip_m_s = GRIP * support_m_s;
+        self.excess_m_s += (change_m_s.xy().norm() - grip_m_s).max(0.0);
+        (self.position_m, self.velocity_m_s, self.share) = (position_m, velocity_m_s, 1.0);
         if self.excess_m_s > EXCESS_MAX_M_S { Err(Outcome::Unphysical) } else { Ok(()) }
     }
 
@@ -121,7 +129,7 @@ mod tests {
             scored_s: 2.0,
             keeps_ledger: true,
         };
-        let mut ledger = Ledger::new(&trial, 24, Vector3::zeros());
+        let mut ledger = Ledger::new(&trial, 24, Vector3::zeros(), Vector3::zeros());
         let (fall_m, hop_m) = (-9.81 * 0.01, 0.05);
         ledger.enter(Vector3::zeros()).unwrap();
         assert_eq!(ledger.enter(Vector3::new(0.03, 0.0, hop_m)), Ok(()));
