@@ -2,12 +2,13 @@
 
 mod hand;
 
+use crate::hostile::memory;
 use islands::creature::gene::PARAMETER_COUNT;
 use islands::creature::{Gene, Profile, Shape, express};
 use islands::evolution::{Evaluation, Outcome, Problem};
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
-use islands::simulation::{self, Engine, Trajectory};
+use islands::simulation::{self, Engine, Trajectory, Trial};
 use std::collections::BTreeMap;
 
 fn problem(profile: Profile, task: Task) -> Locomotion {
@@ -103,6 +104,21 @@ fn the_middle_of_no_link_is_ever_below_the_ground() {
             let lowest = heights.fold(f32::INFINITY, f32::min);
             assert!(lowest > 0.0, "{engine}: {lowest}");
         }
+    }
+}
+
+/// What a trial needs is asked for before its first step: one that ends before the body lands asks as often.
+#[test]
+fn our_own_engine_asks_for_no_memory_while_it_steps() {
+    let course = Task::Course.trial();
+    for genome in random_genomes(12, 6) {
+        let creature = problem(Profile::Native, Task::Course).express(&genome).unwrap();
+        let times = [0.25, 8.0].map(|scored_s| {
+            let trial = Trial { scored_s, ..course };
+            let try_out = || _ = simulation::simulate(&creature, &trial, Engine::Featherstone);
+            memory::times_in(try_out)
+        });
+        assert!(times[0] > 0 && times[0] == times[1], "{times:?}");
     }
 }
 

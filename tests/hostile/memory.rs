@@ -14,6 +14,7 @@ static COUNTING: Counting = Counting;
 thread_local! {
     static HELD: Cell<i64> = const { Cell::new(0) };
     static MOST: Cell<i64> = const { Cell::new(0) };
+    static TIMES: Cell<u64> = const { Cell::new(0) };
 }
 
 /// The most bytes that the current thread held during `work`, above what it held before.
@@ -24,8 +25,16 @@ pub fn peak_of(work: impl FnOnce()) -> i64 {
     MOST.get() - before
 }
 
+/// How often the current thread asked for memory during `work`.
+pub fn times_in(work: impl FnOnce()) -> u64 {
+    let before = TIMES.get();
+    work();
+    TIMES.get() - before
+}
+
 fn count(bytes: usize, sign: i64) {
     // What one thread asks for another may give back, and a thread that ends counts no more.
+    let _ = TIMES.try_with(|times| times.set(times.get() + u64::from(sign > 0)));
     let _ = HELD.try_with(|held| {
         held.set(held.get() + sign * bytes as i64);
         MOST.try_with(|most| most.set(most.get().max(held.get())))

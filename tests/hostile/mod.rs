@@ -6,7 +6,7 @@
 
 mod bodies;
 mod files;
-mod memory;
+pub mod memory;
 pub mod pieces;
 mod restart;
 mod seeds;

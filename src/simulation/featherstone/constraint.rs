@@ -6,7 +6,7 @@
 
 use super::super::trial;
 use super::contact::Touch;
-use super::factor::Factor;
+use super::factor::{Factor, inverse};
 use super::spatial::Spatial;
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -313,9 +313,4 @@ fn dot(a: &Root, b: &Root) -> f32 {
     let product: Root = std::array::from_fn(|i| a[i] * b[i]);
     let half: [f32; 4] = std::array::from_fn(|i| product[i] + product[i + 4]);
     (half[0] + half[2]) + (half[1] + half[3])
-}
-
-/// 1/x, and nothing of what is not positive: what cannot be moved needs no impulse.
-fn inverse(x: f64) -> f64 {
-    if x > f64::MIN_POSITIVE { 1.0 / x } else { 0.0 }
 }

@@ -271,10 +271,10 @@ fn cholesky(matrix: &Inertia) -> [[f64; 6]; 6] {
     lower
 }
 
-/// 1/x, and nothing of zero.
+/// 1/x, and nothing of what is not positive: what cannot be moved needs no impulse.
 #[inline]
-fn inverse(x: f64) -> f64 {
-    if x > 0.0 { 1.0 / x } else { 0.0 }
+pub fn inverse(x: f64) -> f64 {
+    if x > f64::MIN_POSITIVE { 1.0 / x } else { 0.0 }
 }
 
 /// 1/√x, and nothing of what is no positive number: a direction that has no inertia left does not move.

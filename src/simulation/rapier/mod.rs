@@ -130,8 +130,9 @@ impl World for RapierWorld {
     #[cfg(test)]
     fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>) {
         let [v, w] = [velocity_m_s, turn_rad_s].map(|it| it.cast::<f32>());
+        let joint = self.joint();
         let rapier::PhysicsWorld { bodies, multibody_joints, .. } = &mut self.scene.world;
-        match self.parts.iter().find_map(|(_, joint)| *joint) {
+        match joint {
             Some(joint) => {
                 let (multibody, _) = multibody_joints.get_mut(joint).expect("it was inserted");
                 let root = [v.x, v.y, v.z, w.x, w.y, w.z];
