@@ -29,6 +29,8 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// What is drawn from a distribution that learns, and where that begins again.
+    Sampling = 4,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

@@ -140,10 +140,6 @@ impl Problem for Timed {
         self.problem.random_genome(rng)
     }
 
-    fn mutate_gene(&self, gene: &mut Gene, rate: f64, amount: f64, rng: &mut Stream) {
-        self.problem.mutate_gene(gene, rate, amount, rng);
-    }
-
     fn distance(&self, a: &[Gene], b: &[Gene]) -> f64 {
         self.problem.distance(a, b)
     }

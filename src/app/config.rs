@@ -2,9 +2,11 @@
 
 use super::Failure;
 use super::seeds::SeedGenomes;
-use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
+use crate::archipelago::{Algorithm, Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
-use crate::evolution::{Selection, Strategy, Variation};
+use crate::evolution::{
+    Adaptation, Crossover, Mutation, Reproduction, Selection, Strategy, Survival, Variation,
+};
 use crate::problems::{Locomotion, Task};
 use crate::simulation::Engine;
 use crate::store::{RunDir, file};
@@ -45,6 +47,8 @@ pub struct Config {
     pub islands: u32,
     /// Seed of all randomness; none until one is picked at launch.
     pub seed: Option<u64>,
+    /// What searches.
+    pub algorithm: Algorithm,
     /// Generations after the random first one.
     pub generations: u32,
     /// Individuals on each island.
@@ -65,16 +69,28 @@ pub struct Config {
     pub selection: Selection,
     /// How many of the best live on unchanged.
     pub elites: usize,
+    /// How the next population is made of the old one and its offspring.
+    pub survival: Survival,
+    /// How two parents are recombined.
+    pub crossover: Crossover,
     /// Probability of an offspring to have two parents.
     pub crossover_rate: f64,
+    /// How a value is changed.
+    pub mutation: Mutation,
     /// Probability of each value of each gene to be changed.
     pub point_rate: f64,
-    /// The most by which a value is changed, as a share of its range.
+    /// The scale of such a change, as a share of the value's range.
     pub point_amount: f64,
     /// Probability of an offspring to lose a gene.
     pub shrink_rate: f64,
     /// Probability of an offspring to gain a gene.
     pub grow_rate: f64,
+    /// Probability of an offspring to repeat one of its limbs.
+    pub duplicate_rate: f64,
+    /// What changes the scale of mutation from one generation to the next.
+    pub adaptation: Adaptation,
+    /// Whether each island has crossover and mutation rates of its own.
+    pub heterogeneous: bool,
     /// Who sends migrants to whom.
     pub topology: Topology,
     /// Generations between two exchanges.
@@ -114,24 +130,33 @@ pub struct Launch {
 
 impl Default for Config {
     fn default() -> Self {
+        let strategy = Strategy::default();
+        let variation = strategy.variation;
         Self {
             islands: 4,
             seed: None,
+            algorithm: Algorithm::Ga,
             generations: 80,
-            population: 24,
+            population: strategy.population,
             task: Task::Walk,
             profile: Profile::Native,
             engine: Engine::Rapier,
             genes: 4,
-            max_genes: 12,
+            max_genes: variation.genes_max,
             max_links: 32,
-            selection: Selection::Tournament { size: 3 },
-            elites: 2,
-            crossover_rate: 0.3,
-            point_rate: 0.04,
-            point_amount: 0.2,
-            shrink_rate: 0.1,
-            grow_rate: 0.1,
+            selection: strategy.selection,
+            elites: strategy.elites,
+            survival: strategy.survival,
+            crossover: variation.crossover,
+            crossover_rate: variation.crossover_rate,
+            mutation: variation.mutation,
+            point_rate: variation.point_rate,
+            point_amount: variation.point_amount,
+            shrink_rate: variation.shrink_rate,
+            grow_rate: variation.grow_rate,
+            duplicate_rate: variation.duplicate_rate,
+            adaptation: strategy.adaptation,
+            heterogeneous: strategy.heterogeneous,
             topology: Topology::Ring,
             migration_interval: 5,
             migrants: 2,
@@ -227,6 +252,7 @@ impl Config {
         within("point-amount", self.point_amount, 0.0, 1.0)?;
         within("shrink-rate", self.shrink_rate, 0.0, 1.0)?;
         within("grow-rate", self.grow_rate, 0.0, 1.0)?;
+        within("duplicate-rate", self.duplicate_rate, 0.0, 1.0)?;
         within("migration-interval", f64::from(self.migration_interval), 1.0, 1e9)?;
         within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
         within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
@@ -289,7 +315,7 @@ impl Config {
 
     /// What decides the result of the run, but for the problem. A seed that was not picked yet is 0.
     pub fn archipelago(&self) -> Archipelago {
-        Archipelago {
+        self.algorithm.on(Archipelago {
             islands: self.islands,
             seed: self.seed.unwrap_or_default(),
             topology: self.topology,
@@ -301,8 +327,15 @@ impl Config {
             strategy: Strategy {
                 population: self.population,
                 elites: self.elites,
+                reproduction: Reproduction::Parents,
                 selection: self.selection,
+                survival: self.survival,
+                adaptation: self.adaptation,
+                heterogeneous: self.heterogeneous,
                 variation: Variation {
+                    crossover: self.crossover,
+                    mutation: self.mutation,
+                    duplicate_rate: self.duplicate_rate,
                     crossover_rate: self.crossover_rate,
                     point_rate: self.point_rate,
                     point_amount: self.point_amount,
@@ -311,6 +344,18 @@ impl Config {
                     genes_max: self.max_genes,
                 },
             },
+        })
+    }
+
+    /// The configuration that is run: without islands, all individuals live on one.
+    pub fn settled(self) -> Self {
+        match self.algorithm {
+            Algorithm::Panmictic => {
+                let islands = self.islands as usize;
+                let population = self.population.saturating_mul(islands);
+                Self { islands: 1, population, elites: self.elites.saturating_mul(islands), ..self }
+            }
+            _ => self,
         }
     }
 

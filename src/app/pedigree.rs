@@ -123,10 +123,11 @@ mod tests {
         let mut lineage = Lineage::default();
         for island in 0..2 {
             let births = vec![birth([None; 2], 0.5), birth([None; 2], 0.25)];
-            lineage.push(island, Births { generation: 0, births });
+            lineage.push(island, Births { generation: 0, amount_scale: 1.0, births });
         }
         let crossed = [Some(id(0, 0, 0)), Some(id(1, 0, 1))];
-        lineage.push(1, Births { generation: 1, births: vec![birth(crossed, 2.0)] });
+        let births = vec![birth(crossed, 2.0)];
+        lineage.push(1, Births { generation: 1, amount_scale: 1.0, births });
         let family = Herald::of(&Config::default()).family(&lineage, id(1, 1, 0));
         let labels: Vec<_> = family.line.iter().map(|it| it.member.label.as_str()).collect();
         let expected =

@@ -6,7 +6,7 @@ use super::super::console::{print, say};
 use super::super::pedigree::{self, Herald};
 use super::super::{Failure, seeds};
 use super::film::{Studio, recorder};
-use crate::archipelago::{Births, Champion, Lineage};
+use crate::archipelago::{Birth, Births, Champion, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual, Problem};
 use crate::store::{RecordLog, RunDir};
@@ -162,7 +162,9 @@ fn ancestors(
     let one = |&id: &Id| {
         let birth = lineage.birth(id)?;
         let genome = genomes.get(&id)?.clone();
-        Some(Individual { id, parents: birth.parents, genome, fitness: birth.fitness })
+        let Birth { parents, fitness } = birth;
+        // Their age matters to nobody any more.
+        Some(Individual { id, parents, origin: 0, genome, fitness })
     };
     Ok(line.iter().filter_map(one).collect())
 }

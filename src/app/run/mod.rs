@@ -138,6 +138,8 @@ fn resolve(args: &RunArgs) -> Result<(Config, Vec<Vec<Gene>>), Failure> {
         config.scales = args.changes.scales.iter().cloned().collect();
     }
     config.check()?;
+    config = config.settled();
+    config.check()?;
     let dropped = &args.changes.drop_columns;
     let founders = seeds::find(&mut config, &args.seed_genomes, dropped, args.config.as_deref())?;
     if config.seed.is_none() {

@@ -8,7 +8,7 @@ use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Id};
+use crate::evolution::{Fitness, Id, Reproduction, Survival};
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -91,8 +91,7 @@ impl<'a> Terms<'a> {
         if (report.island, report.generation) != (island, generation) {
             return wrong("is of another island or generation");
         }
-        let elites = if generation == 0 { 0 } else { self.config.elites };
-        let brood = (self.config.population - elites) as u64;
+        let brood = self.brood(generation) as u64;
         let Effort { evaluations, reused, outcomes } = report.effort;
         let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
         if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
@@ -100,8 +99,9 @@ impl<'a> Terms<'a> {
         }
         let arrive = self.archipelago.migration.immigration(generation).is_some();
         let senders = self.archipelago.in_neighbours(island).len();
-        let immigrants = if arrive { senders * self.config.migrants } else { 0 };
-        if report.immigrants as usize != immigrants {
+        let immigrants = if arrive { senders * self.archipelago.migration.migrants } else { 0 };
+        let found = report.immigrants as usize;
+        if found > immigrants || (!self.is_map() && found < immigrants) {
             return wrong("counts immigrants that cannot have been");
         }
         if !entry.seconds.is_finite() || entry.seconds < 0.0 {
@@ -138,16 +138,17 @@ impl<'a> Terms<'a> {
 
     fn births(&self, generation: u32, found: &Births, entry: Option<&Entry>) -> Result<(), String> {
         let wrong = |reason: &str| Err(reason.to_owned());
-        let Config { population, elites, islands, .. } = *self.config;
-        let brood = if generation == 0 { population } else { population - elites };
-        if found.generation != generation || found.births.len() != brood {
+        let Config { population, islands, .. } = *self.config;
+        let is_scale = found.amount_scale > 0.0 && found.amount_scale.is_finite();
+        let has_size = found.births.len() == self.brood(generation);
+        if found.generation != generation || !has_size || !is_scale {
             return wrong("is of another generation or size");
         }
         let lived = |id: Id| {
             id.generation < generation && id.island < islands && (id.index as usize) < population
         };
         let can_be = |birth: &Birth| match birth.parents {
-            [None, None] => generation == 0,
+            [None, None] => generation == 0 || self.has_newcomers(),
             [Some(mother), None] => lived(mother),
             [Some(mother), Some(father)] => lived(mother) && lived(father),
             [None, Some(_)] => false,
@@ -157,7 +158,7 @@ impl<'a> Terms<'a> {
         }
         let best = found.births.iter().map(|birth| birth.fitness).max();
         let Some(lived) = entry.map(|entry| entry.report.statistics.best) else { return Ok(()) };
-        if best > Some(lived) || (elites == 0 && best != Some(lived)) {
+        if best > Some(lived) || (!self.keeps_its_best() && best != Some(lived)) {
             return wrong("disagrees with its report");
         }
         Ok(())
@@ -209,10 +210,33 @@ impl<'a> Terms<'a> {
         let best = entry.report.statistics.best;
         let champion =
             reign(champions, generation).map_or(Fitness::WORST, |reign| reign.individual.fitness);
-        if champion < best || (self.config.elites > 0 && champion > best) {
+        if champion < best || (self.keeps_its_best() && champion > best) {
             return Err(format!("it disagrees with the report of generation {generation}"));
         }
         Ok(())
+    }
+
+    /// How many are born in a generation.
+    fn brood(&self, generation: u32) -> usize {
+        let strategy = &self.archipelago.strategy;
+        if generation == 0 { strategy.population } else { strategy.brood() }
+    }
+
+    /// Whether the population is a map, which may have fewer individuals than are to be sent.
+    fn is_map(&self) -> bool {
+        matches!(self.archipelago.strategy.survival, Survival::MapElites { .. })
+    }
+
+    /// Whether somebody without parents may be born after generation 0.
+    fn has_newcomers(&self) -> bool {
+        let strategy = &self.archipelago.strategy;
+        strategy.survival == Survival::Afpo || strategy.reproduction != Reproduction::Parents
+    }
+
+    /// Whether the best of a population lives on.
+    fn keeps_its_best(&self) -> bool {
+        let strategy = &self.archipelago.strategy;
+        strategy.elites > 0 || strategy.survival.is_steady()
     }
 
     /// How many outboxes an island has sent by the end of a generation.
@@ -235,7 +259,8 @@ impl<'a> Terms<'a> {
             let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
             let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
             let can_be_sent = outbox.fits(&self.archipelago, island);
-            if fitness.len() != self.config.migrants || !are_the_best || !can_be_sent {
+            let are_all = fitness.len() == self.archipelago.migration.migrants || self.is_map();
+            if !are_all || !are_the_best || !can_be_sent {
                 return wrong("holds migrants that cannot have been sent");
             }
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;

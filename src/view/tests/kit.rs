@@ -70,6 +70,7 @@ pub fn report(island: u32, generation: u32) -> Report {
         mean,
         median: mean,
         diversity: 1.0 / (1.0 + g * (1.0 + 0.2 * f64::from(island)) / 10.0),
+        phenotype_diversity: 0.5,
         spread: Spread::of(&(0..50).map(|i| f64::from(i * i) / 1000.0).collect::<Vec<_>>()),
     };
     Report { island, generation, statistics, effort: Effort::default(), immigrants: 0 }
