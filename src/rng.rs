@@ -29,6 +29,8 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// Where a benchmark has its optimum: drawn once, for all runs alike.
+    Instance = 16,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

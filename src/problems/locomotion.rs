@@ -239,7 +239,7 @@ fn gene_distance(a: &Gene, b: &Gene) -> f64 {
 
 /// Brings a value that left the range from 0 to 1 by less than 1 back in, as a mirror at its ends would:
 /// a clamp would pile values up there.
-fn reflect(value: f64) -> f64 {
+pub(super) fn reflect(value: f64) -> f64 {
     let value = value.abs();
     if value < 1.0 { value } else { (2.0 - value).clamp(0.0, VALUE_MAX) }
 }
