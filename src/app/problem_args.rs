@@ -45,17 +45,23 @@ impl ProblemArgs {
         }
     }
 
-    /// Makes sure that no other problem is wished for than a run has.
+    /// Makes sure that no other problem is wished for than a run has, whose defaults would be other ones.
     ///
     /// # Errors
     /// If one is.
-    pub fn require(&self, own: Kind) -> Result<(), Failure> {
-        match self.problem {
-            Some(other) if other != own => Err(Failure::usage(format!(
-                "a run cannot go on with another problem: it is {own}, not {other}; leave that out, or start a \
-                 new run"
-            ))),
-            _ => Ok(()),
+    pub fn require_same(&self, own: &Config) -> Result<(), Failure> {
+        let wished = self.over(own.clone());
+        let name = |config: &Config| match config.problem {
+            Kind::Creatures => "creatures".to_owned(),
+            other => format!("{other} of {}", config.dimensions),
+        };
+        if (wished.problem, wished.dimensions) == (own.problem, own.dimensions) {
+            return Ok(());
         }
+        Err(Failure::usage(format!(
+            "a run cannot go on with another problem: it is {}, not {}; leave that out, or start a new run",
+            name(own),
+            name(&wished)
+        )))
     }
 }

@@ -139,9 +139,11 @@ fn read<P: Subject>(
     let read = |path: &PathBuf| {
         genomes::read_for(problem, path, dropped).map_err(|reason| {
             let path = path.display();
-            Failure::usage(format!(
-                "cannot begin with {path}: {reason} (islands import sorts out what can be read)"
-            ))
+            let advice = match P::HAS_BODIES {
+                true => " (islands import sorts out what can be read)",
+                false => "",
+            };
+            Failure::usage(format!("cannot begin with {path}: {reason}{advice}"))
         })
     };
     files.iter().map(read).collect()

@@ -2,7 +2,7 @@
 
 use super::fixed;
 use crate::choice;
-use crate::evolution::{Evaluation, Gene, Problem, Variation, variation};
+use crate::evolution::{Evaluation, Fitness, Gene, Problem, Variation, variation};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
@@ -145,6 +145,11 @@ impl Problem for Bits {
         fixed::evaluate(genome, self.bits, |genome| {
             genome.chunks(self.block.max(1)).map(worth).sum::<usize>() as f64
         })
+    }
+
+    /// Bits are counted.
+    fn show(&self, fitness: Fitness) -> String {
+        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score}"))
     }
 
     // A pool of threads would take far longer than the work.

@@ -31,9 +31,6 @@ pub struct Cinema<P: Subject> {
 /// An island without a better champion for so many generations stagnates.
 const STAGNANT: u32 = 5;
 
-/// Where nothing is to be seen but figures, a slot of the film is so long, in seconds: a minute in all.
-const FIGURES_S: f64 = 5.0;
-
 impl<P: Subject> Cinema<P> {
     /// Begins a recording for the path `recording`, in `folder`, and serves it if wanted; where it cannot be
     /// served, it is only recorded.
@@ -224,7 +221,6 @@ fn run_card<P: Subject>(config: &Config, problem: &P, clip_every: Option<u32>) -
     let edges = (0..config.islands).flat_map(|island| {
         archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
     });
-    let clip_s = problem.clip_s();
     let clip_every = clip_every.or(config.clip_every);
     RunCard {
         program: Program::Run,
@@ -232,21 +228,21 @@ fn run_card<P: Subject>(config: &Config, problem: &P, clip_every: Option<u32>) -
         unit: problem.unit().to_owned(),
         description_markdown: description(config, problem),
         topology_edges: edges.collect(),
-        has_stage: clip_s.is_some(),
+        has_stage: P::HAS_BODIES,
         has_family: true,
-        pace: Pace::for_run(config.generations, clip_every, clip_s.unwrap_or(FIGURES_S)),
+        pace: Pace::for_run(config.generations, clip_every, problem.clip_s()),
     }
 }
 
 /// What decides the run, but neither when it was launched nor how it was run: films of equal runs are equal.
 fn description<P: Subject>(config: &Config, problem: &P) -> String {
     let Config { islands, population, generations, .. } = config;
-    let legend = match problem.clip_s() {
-        Some(_) => {
+    let legend = match P::HAS_BODIES {
+        true => {
             "On every champion, pins through its driven joints are light while the motor turns one way and dark \
              while it turns the other; white discs are where it touches the ground.\n\n"
         }
-        None => "",
+        false => "",
     };
     format!(
         "# {islands} islands × {population} {}, {generations} generations\n\n{}, seed **{}**\n\n{legend}\

@@ -249,7 +249,10 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         self.crew.ask_to_stop(is_monitor);
         let is_quick = self.crew.await_end(is_monitor, SOON, || ear.heard_hurry());
         if !is_quick {
-            self.chronicle.tell("the monitor films the last champions …");
+            self.chronicle.tell(match P::HAS_BODIES {
+                true => "the monitor films the last champions …",
+                false => "the monitor records the last generations …",
+            });
         }
         if !is_quick && !self.crew.await_end(is_monitor, most, || ear.heard_hurry()) {
             self.chronicle.warn("the monitor was still filming and was stopped; the film has gaps");

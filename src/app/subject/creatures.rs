@@ -17,6 +17,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 impl Subject for Locomotion {
     const INHABITANTS: &'static str = "creatures";
+    const HAS_BODIES: bool = true;
 
     fn title(&self) -> String {
         format!("Task **{}**, profile **{}**", self.task, self.profile)
@@ -56,9 +57,9 @@ impl Subject for Locomotion {
         Some(format!("{} links", creature.morphology.links.len()))
     }
 
-    fn clip_s(&self) -> Option<f64> {
+    fn clip_s(&self) -> f64 {
         let trial = self.task.trial();
-        Some(trial.settle_s + trial.scored_s)
+        trial.settle_s + trial.scored_s
     }
 
     #[cfg(feature = "view")]

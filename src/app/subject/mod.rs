@@ -16,6 +16,8 @@ use std::io::{self, Write};
 pub trait Subject: Problem + Clone + Send {
     /// What evolves, in the plural.
     const INHABITANTS: &'static str;
+    /// Whether a genome describes a body, which can be filmed and taken elsewhere.
+    const HAS_BODIES: bool;
 
     /// What is to be done, as a card says it in Markdown.
     fn title(&self) -> String;
@@ -32,7 +34,7 @@ pub trait Subject: Problem + Clone + Send {
     /// If the output cannot be written.
     fn write_genome(&self, genome: &[Self::Gene], output: &mut dyn Write) -> io::Result<()>;
 
-    /// The body that a genome describes, as a file for other programs; none if it has none.
+    /// The body that a genome describes, as a file for other programs; none if it cannot be built.
     fn body(&self, _genome: &[Self::Gene]) -> Option<Vec<u8>> {
         None
     }
@@ -52,12 +54,13 @@ pub trait Subject: Problem + Clone + Send {
         None
     }
 
-    /// How long a film of a trial is, in seconds; none if there is nothing to be seen.
-    fn clip_s(&self) -> Option<f64> {
-        None
+    /// How long a film of a trial is, in seconds; where there is nothing to be seen but figures, how long each twelfth
+    /// of a run is shown.
+    fn clip_s(&self) -> f64 {
+        5.0
     }
 
-    /// Evaluates a genome and films it; none if it has no body.
+    /// Evaluates a genome and films it; none if its body cannot be built.
     #[cfg(feature = "view")]
     fn shoot(&self, _genome: &[Self::Gene]) -> Option<Shot> {
         None

@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 impl Subject for Benchmark {
     const INHABITANTS: &'static str = "points";
+    const HAS_BODIES: bool = false;
 
     fn title(&self) -> String {
         let turned = if self.rotation().is_empty() { "" } else { " and rotated" };
@@ -33,6 +34,7 @@ impl Subject for Benchmark {
 
 impl Subject for Bits {
     const INHABITANTS: &'static str = "strings";
+    const HAS_BODIES: bool = false;
 
     fn title(&self) -> String {
         let blocks =
@@ -47,9 +49,5 @@ impl Subject for Bits {
 
     fn write_genome(&self, genome: &[Bit], output: &mut dyn Write) -> io::Result<()> {
         vector_csv::write(COLUMNS[1], genome.iter().map(|bit| bit.0.to_string()), output)
-    }
-
-    fn short(&self, fitness: Fitness) -> String {
-        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score}"))
     }
 }

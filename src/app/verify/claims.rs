@@ -152,7 +152,8 @@ fn check_champion<P: Subject>(
     terms: &Terms,
     records: &Records<P::Gene>,
 ) -> Check {
-    let mut check = Check::of("champion").checked("champion.csv, .urdf");
+    let files = if P::HAS_BODIES { "champion.csv, .urdf" } else { "champion.csv" };
+    let mut check = Check::of("champion").checked(files);
     let finals = records.finals(terms);
     let Some((_, champion)) = finals.and_then(|_| result::best(&records.champions)) else {
         check.note("not checked: a final population is missing or damaged");
