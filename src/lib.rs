@@ -16,7 +16,7 @@
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
 //! |   | [`simulation`] | bodies tried in rapier or a stepper of our own |
-//! | 3 | [`problems`] | what can be evolved: creatures that move |
+//! | 3 | [`problems`] | what can be evolved: creatures that move, points of functions, bits |
 //! | 4 | [`transport`] | exchange between processes through iceoryx2 |
 //! |   | [`store`] | what a run leaves on disk |
 //! |   | [`formats`] | files for people and other programs |
@@ -44,7 +44,7 @@
 //! use islands::archipelago::{Digest, lockstep};
 //!
 //! let config = Config { islands: 2, population: 3, elites: 1, genes: 2, seed: Some(7), ..Config::default() };
-//! let islands = lockstep::run(&config.problem(), &config.archipelago(), 1, |step| {
+//! let islands = lockstep::run(&config.locomotion(), &config.archipelago(), 1, |step| {
 //!     println!("island {} has walked {:?}", step.report.island, step.report.statistics.best);
 //! });
 //! println!("{}", Digest::of(&islands));

@@ -31,6 +31,8 @@ pub enum Purpose {
     Mutation = 3,
     /// What is drawn from a distribution that learns, and where that begins again.
     Sampling = 4,
+    /// Where a benchmark has its optimum: drawn once, for all runs alike.
+    Instance = 16,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

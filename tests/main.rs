@@ -14,6 +14,7 @@ mod format;
 mod hostile;
 mod imports;
 mod physics;
+mod problems;
 #[cfg(feature = "view")]
 mod recording;
 #[cfg(feature = "view")]

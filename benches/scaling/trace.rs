@@ -63,7 +63,7 @@ impl Trace {
         let claim = dir.create().expect("the folder is writable");
         claim.make_folders(config.islands).expect("the folder is writable");
         let mut logbooks = logbooks(&config, &dir);
-        let problem = Timed { problem: config.problem(), batch: Mutex::default() };
+        let problem = Timed { problem: config.locomotion(), batch: Mutex::default() };
         let mut islands: Vec<Vec<Generation>> = logbooks.iter().map(|_| Vec::new()).collect();
         let mut began_s = processor_s();
         lockstep::run(&problem, &archipelago, config.generations, |step| {

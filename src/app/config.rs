@@ -1,6 +1,11 @@
-//! The whole of a run in one struct.
+//! The whole of a run in one struct: [`mod@file`] reads and writes it.
+
+mod file;
+
+pub use file::FILE_BYTES_MAX;
 
 use super::Failure;
+use super::catalogue::Kind;
 use super::seeds::SeedGenomes;
 use crate::archipelago::{Algorithm, Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
@@ -9,10 +14,8 @@ use crate::evolution::{
 };
 use crate::problems::{Locomotion, Task};
 use crate::simulation::Engine;
-use crate::store::{RunDir, file};
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// The most islands of a run.
 pub const ISLANDS_MAX: u32 = 256;
@@ -33,11 +36,6 @@ pub const THREADS_MAX: usize = 4_096;
 /// other ones.
 pub const FREE: [&str; 4] = ["generations", "threads", "checkpoint-interval", "clip-every"];
 
-/// The largest configuration file, in bytes; ours have a thousand.
-pub const FILE_BYTES_MAX: usize = 1 << 20;
-/// The longest complaint about a file that is passed on, in characters.
-const COMPLAINT_MAX: usize = 400;
-
 /// Everything that decides a run. Command-line flags of the same names win over a file, and what neither
 /// says has the default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -53,6 +51,16 @@ pub struct Config {
     pub generations: u32,
     /// Individuals on each island.
     pub population: usize,
+    /// What is evolved: creatures, points of a function or bits.
+    pub problem: Kind,
+    /// Variables of a function, or bits of a genome.
+    pub dimensions: usize,
+    /// Which shift and rotation a function has.
+    pub instance: u64,
+    /// Whether a function is rotated.
+    pub rotated: bool,
+    /// Bits of a block of a trap or a royal road.
+    pub block: usize,
     /// What creatures have to do.
     pub task: Task,
     /// How genes are read.
@@ -138,6 +146,11 @@ impl Default for Config {
             algorithm: Algorithm::Ga,
             generations: 80,
             population: strategy.population,
+            problem: Kind::Creatures,
+            dimensions: 30,
+            instance: 1,
+            rotated: false,
+            block: 5,
             task: Task::Walk,
             profile: Profile::Native,
             engine: Engine::Rapier,
@@ -172,56 +185,12 @@ impl Default for Config {
 }
 
 impl Config {
-    /// Reads a configuration file.
-    ///
-    /// # Errors
-    /// If it cannot be read, is too large, no TOML, or says something that a configuration does not know.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let wrong =
-            |reason: String| Failure::usage(format!("cannot use {}: {reason}", path.display()));
-        let text = file::read_text(path, FILE_BYTES_MAX).map_err(|error| {
-            wrong(format!("{}; name a file such as a run's run.toml", error.reason()))
-        })?;
-        Self::parse(&text).map_err(wrong)
-    }
-
-    /// Reads what a configuration file says.
-    ///
-    /// # Errors
-    /// What is wrong with it, if it is no TOML or says something that a configuration does not know.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        toml::from_str(text).map_err(|error| one_line(&error, text))
-    }
-
-    /// Reads the configuration of a run that was launched.
-    ///
-    /// # Errors
-    /// If there is none, it cannot be read, is not sound, or was not written by a launch.
-    pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
-        if !dir.config().exists() {
-            return Err(Failure::no_run(dir));
-        }
-        let config = Self::read(&dir.config())?;
-        config.check()?;
-        match config.is_launched() {
-            true => Ok(config),
-            false => Err(Failure::usage(format!(
-                "{} was not written by a run: start one with islands --config {0}",
-                dir.config().display()
-            ))),
-        }
-    }
-
-    /// The file that says the same.
-    pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("a checked configuration is plain data within TOML's ranges")
-    }
-
     /// Says what is wrong with the configuration, if anything.
     ///
     /// # Errors
     /// One sentence that says what to change.
     pub fn check(&self) -> Result<(), Failure> {
+        self.check_dimensions()?;
         self.check_ranges()?;
         self.check_genes()?;
         self.check_migrants()?;
@@ -230,7 +199,7 @@ impl Config {
             Some(seed) if seed > SEED_MAX => {
                 Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
             }
-            _ => Ok(()),
+            _ => self.check_use(),
         }
     }
 
@@ -284,23 +253,6 @@ impl Config {
             )));
         }
         Ok(())
-    }
-
-    /// The settings that decide what evolves, as TOML: all but [`FREE`] and what launched it. States that were
-    /// saved under other ones, or by another version, are of no use.
-    pub fn settings(&self) -> String {
-        self.settings_of(env!("CARGO_PKG_VERSION"))
-    }
-
-    /// The settings as a version of the program has them that knows the same ones.
-    pub fn settings_of(&self, version: &str) -> String {
-        let mut settings =
-            toml::Table::try_from(self).expect("a checked configuration is plain data");
-        for other in FREE.into_iter().chain(["launch"]) {
-            settings.remove(other);
-        }
-        settings.insert("version".to_owned(), version.into());
-        settings.to_string()
     }
 
     /// Whether it is that of a run: a launch picks a seed where none is said.
@@ -369,8 +321,8 @@ impl Config {
         Ok(launch.run_id.parse::<Domain>()?)
     }
 
-    /// The problem that is solved.
-    pub fn problem(&self) -> Locomotion {
+    /// The problem of locomotion that is solved where creatures are evolved.
+    pub fn locomotion(&self) -> Locomotion {
         Locomotion {
             profile: self.profile,
             scales: self.scales,
@@ -379,17 +331,6 @@ impl Config {
             links_max: self.max_links,
             engine: self.engine,
         }
-    }
-}
-
-/// TOML's errors draw the line that they complain of; ours are one sentence.
-fn one_line(error: &toml::de::Error, text: &str) -> String {
-    // It may quote the file: neither at any length nor what a terminal would obey.
-    let shown = error.message().chars().take(COMPLAINT_MAX);
-    let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
-    match error.span().and_then(|span| text.get(..span.start)) {
-        Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
-        None => message,
     }
 }
 

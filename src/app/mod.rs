@@ -1,6 +1,8 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli`, `settings` and `body_args` are what can be said, [`config`] the whole of a run in one struct. `run` is the launcher: it
+//! `cli`, `settings`, `problem_args` and `body_args` are what can be said, [`config`] the whole of a run in one struct. [`catalogue`]
+//! alone knows every problem, and hands the one that is meant to whoever does something with it; [`subject`] is what
+//! the program has to know of it. `run` is the launcher: it
 //! starts a process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they
 //! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
@@ -12,6 +14,7 @@
 //! a result.
 
 mod body_args;
+pub mod catalogue;
 mod clean;
 mod cli;
 pub mod config;
@@ -26,11 +29,13 @@ mod kinship;
 mod monitor;
 #[cfg(feature = "view")]
 mod pedigree;
+mod problem_args;
 mod replay;
 mod result;
 mod run;
 mod seeds;
 mod settings;
+pub mod subject;
 mod table;
 mod verify;
 #[cfg(feature = "view")]

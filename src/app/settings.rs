@@ -1,6 +1,7 @@
 //! The flags that say what evolves, and how.
 
 use super::config::Config;
+use super::problem_args::ProblemArgs;
 use crate::archipelago::Algorithm;
 use crate::creature::Profile;
 use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
@@ -27,6 +28,8 @@ pub struct SettingArgs {
     /// Individuals on each island [default: 24]
     #[arg(long, value_name = "P")]
     pub population: Option<usize>,
+    #[command(flatten)]
+    pub problem: ProblemArgs,
     /// What creatures have to do: walk (get away), travel (keep moving) or course (as the course
     /// program measures) [default: walk]
     #[arg(long)]
@@ -115,6 +118,7 @@ pub struct SettingArgs {
 impl SettingArgs {
     /// Lays the flags over a configuration.
     pub fn over(&self, config: Config) -> Config {
+        let config = self.problem.over(config);
         Config {
             islands: self.islands.unwrap_or(config.islands),
             seed: self.seed.or(config.seed),
@@ -150,6 +154,7 @@ impl SettingArgs {
             scales: config.scales,
             seed_genomes: config.seed_genomes,
             launch: None,
+            ..config
         }
     }
 }
@@ -167,7 +172,8 @@ mod tests {
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
             --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone --algorithm random --survival crowding \
-            --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous";
+            --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
+            --dimensions 9 --instance 9 --rotated --block 9";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

@@ -5,10 +5,9 @@
 
 use super::super::config::Config;
 use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
-use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Id, Reproduction, Survival};
+use crate::evolution::{Fitness, Gene, Id, Reproduction, Survival};
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -18,15 +17,17 @@ pub struct Terms<'a> {
     pub config: &'a Config,
     /// Whether it has come to its end: then its logs are complete.
     pub finished: bool,
+    /// Whether its champions were confirmed by another judge.
+    pub is_judged: bool,
     archipelago: Archipelago,
     settings: String,
 }
 
 impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
-    pub fn new(config: &'a Config, finished: bool) -> Self {
+    pub fn new(config: &'a Config, finished: bool, is_judged: bool) -> Self {
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
-        Self { config, finished, archipelago, settings }
+        Self { config, finished, is_judged, archipelago, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -36,9 +37,9 @@ impl<'a> Terms<'a> {
 
     /// How many records a log may have that has `of(g)` of them after generation g: all of a finished run, else
     /// at least those that the island's state needs.
-    pub fn span(
+    pub fn span<G>(
         &self,
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
         of: impl Fn(usize) -> usize,
     ) -> RangeInclusive<usize> {
         let all = of(self.config.generations as usize);
@@ -49,7 +50,7 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of a checkpoint, but for its place and its checksum.
-    pub fn state(&self, checkpoint: &Checkpoint<Gene>) -> Result<(), String> {
+    pub fn state<G: Gene>(&self, checkpoint: &Checkpoint<G>) -> Result<(), String> {
         let Checkpoint { settings, island } = checkpoint;
         let generations = self.config.generations;
         if *settings != self.settings {
@@ -62,11 +63,11 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of an island's reports.
-    pub fn reports(
+    pub fn reports<G>(
         &self,
         island: u32,
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         for (generation, entry) in (0..).zip(entries) {
             self.report(island, generation, entry)
@@ -111,11 +112,11 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of those who were born on an island.
-    pub fn lineages(
+    pub fn lineages<G>(
         &self,
         lineages: &[Births],
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         for (generation, births) in (0..).zip(lineages) {
             self.births(generation, births, entries.get(generation as usize))
@@ -165,16 +166,16 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of an island's champions.
-    pub fn champions(
+    pub fn champions<G: Gene>(
         &self,
-        champions: &[Champion<Gene>],
+        champions: &[Champion<G>],
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         if champions.first().is_some_and(|first| first.generation != 0) {
             return Err("its first champion is not of generation 0".to_owned());
         }
-        let is_judged = self.config.problem().judge().is_some();
+        let is_judged = self.is_judged;
         if champions.iter().any(|champion| champion.confirmed.is_some() != is_judged) {
             return Err(match is_judged {
                 true => "it has a champion that rapier did not confirm".to_owned(),
@@ -205,7 +206,11 @@ impl<'a> Terms<'a> {
 
     /// A champion is at least as good as everybody who lived; where elites live on, the best of the population
     /// is as good as it. Without them an immigrant may be better for a moment and leave no such offspring.
-    fn reigns_rightly(&self, champions: &[Champion<Gene>], entry: &Entry) -> Result<(), String> {
+    fn reigns_rightly<G: Gene>(
+        &self,
+        champions: &[Champion<G>],
+        entry: &Entry,
+    ) -> Result<(), String> {
         let generation = entry.report.generation;
         let best = entry.report.statistics.best;
         let champion =
@@ -245,10 +250,10 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of an island's journal.
-    pub fn outboxes(
+    pub fn outboxes<G: Gene>(
         &self,
         island: u32,
-        outboxes: &[Outbox<Gene>],
+        outboxes: &[Outbox<G>],
         entries: &[Entry],
     ) -> Result<(), String> {
         for (epoch, outbox) in (0..).zip(outboxes) {
@@ -276,7 +281,7 @@ impl<'a> Terms<'a> {
 }
 
 /// The champion at the end of a generation; they must be in order.
-fn reign(champions: &[Champion<Gene>], generation: u32) -> Option<&Champion<Gene>> {
+fn reign<G>(champions: &[Champion<G>], generation: u32) -> Option<&Champion<G>> {
     let after = champions.partition_point(|champion| champion.generation <= generation);
     champions[..after].last()
 }

@@ -22,6 +22,7 @@ pub fn card(islands: u32) -> RunCard {
         unit: "m".into(),
         description_markdown: "# A run\n\nseed 1".into(),
         topology_edges: (0..islands).map(|i| (i, (i + 1) % islands)).collect(),
+        has_stage: true,
         has_family: true,
         pace: Pace { slot_s: 0.5, generations_per_slot: 10 },
     }
