@@ -42,7 +42,7 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
     let part = place.fract();
     // Infinity less infinity, and nothing of infinity, are no numbers.
-    Some(if part == 0.0 || low == high { low } else { low + part * (high - low) })
+    Some(if part == 0.0 || low.is_infinite() { low } else { low + part * (high - low) })
 }
 
 /// Whether two samples differ.

@@ -338,7 +338,7 @@ impl Config {
 }
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.
-fn one_line(error: &toml::de::Error, text: &str) -> String {
+pub(super) fn one_line(error: &toml::de::Error, text: &str) -> String {
     // It may quote the file: neither at any length nor what a terminal would obey.
     let shown = error.message().chars().take(COMPLAINT_MAX);
     let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
