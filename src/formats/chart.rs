@@ -16,12 +16,14 @@ const COLOURS: [RGBColor; 7] = [
 ];
 
 const FONT: &str = "sans-serif";
-/// Size of the picture, and of its legend at the right, in pixels.
-const SIZE: (u32, u32) = (960, 520);
-const LEGEND: u32 = 250;
-const LINE: i32 = 22;
+/// Size of the picture, and of its legend at the right, in pixels; it is higher if the legend is.
+const SIZE: (u32, u32) = (1040, 520);
+const LEGEND: u32 = 330;
+const LINE: u32 = 22;
 /// No more of a name is shown, in characters: the legend is not wider.
-const NAME_MAX: usize = 30;
+const NAME_MAX: usize = 38;
+/// How opaque a band is, and where there are more curves than four.
+const OPACITY: [f64; 2] = [0.16, 0.07];
 
 /// A picture.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +69,8 @@ impl Chart {
     }
 
     fn draw(&self, svg: &mut String) -> Result<(), Box<dyn std::error::Error + '_>> {
-        let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
+        let height = SIZE.1.max(LINE * (self.curves.len() as u32 + 2));
+        let root = SVGBackend::with_string(svg, (SIZE.0, height)).into_drawing_area();
         root.fill(&WHITE).map_err(text)?;
         let (plot, legend) = root.split_horizontally(SIZE.0 - LEGEND);
         self.draw_curves(&plot)?;
@@ -95,12 +98,13 @@ impl Chart {
             .label_style((FONT, 15))
             .draw()
             .map_err(text)?;
+        let opacity = OPACITY[usize::from(self.curves.len() > 4)];
         for (index, curve) in self.curves.iter().enumerate() {
             let at = |value: f64| self.place(value);
             let lower = curve.points.iter().map(|point| (point.x, at(point.low)));
             let upper = curve.points.iter().rev().map(|point| (point.x, at(point.high)));
             let band: Vec<_> = lower.chain(upper).collect();
-            chart.draw_series([Polygon::new(band, colour(index).mix(0.16))]).map_err(text)?;
+            chart.draw_series([Polygon::new(band, colour(index).mix(opacity))]).map_err(text)?;
         }
         for (index, curve) in self.curves.iter().enumerate() {
             let points = curve.points.iter().map(|point| (point.x, self.place(point.middle)));
@@ -115,7 +119,7 @@ impl Chart {
     }
 
     fn draw_legend(&self, area: &Area<'_>) -> Result<(), String> {
-        let places = (0..).map(|line| 30 + line * LINE);
+        let places = (30..).step_by(LINE as usize);
         for ((index, curve), y) in self.curves.iter().enumerate().zip(places) {
             let style = colour(index).stroke_width(3);
             let ends: &[(i32, i32)] = match is_dashed(index) {
@@ -173,11 +177,15 @@ fn is_dashed(index: usize) -> bool {
     (index / COLOURS.len()) % 2 == 1
 }
 
+/// Names that are made of settings differ at their ends as well as at their beginnings.
 fn shortened(name: &str) -> String {
-    match name.chars().count() <= NAME_MAX {
-        true => name.to_owned(),
-        false => name.chars().take(NAME_MAX - 1).chain(['…']).collect(),
+    let length = name.chars().count();
+    if length <= NAME_MAX {
+        return name.to_owned();
     }
+    let half = NAME_MAX / 2;
+    let (first, last) = (name.chars().take(half), name.chars().skip(length + 1 - half));
+    first.chain(['…']).chain(last).collect()
 }
 
 #[cfg(test)]
@@ -223,6 +231,15 @@ mod tests {
         assert_eq!(chart.label(-2.0), "1e-2");
         assert_eq!(chart.label(-1.5), "3.2e-2");
         assert!(chart.to_svg().contains("1e-1\n"), "{}", chart.to_svg());
+    }
+
+    #[test]
+    fn a_long_name_keeps_both_its_ends() {
+        let name: String = ('a'..='z').chain('A'..='Z').collect();
+        let shown = shortened(&name);
+        assert_eq!(shown.chars().count(), NAME_MAX);
+        assert!(shown.starts_with("abcdefghijklmnopqrs…") && shown.ends_with("XYZ"), "{shown}");
+        assert_eq!(shortened(&shown), shown);
     }
 
     #[test]

@@ -15,8 +15,8 @@ use std::path::PathBuf;
   task = \"walk\"
   population = 24
 
-  [grid]                      # every combination is a setting, such as migrants=2,selection=rank
-  migrants = [0, 2]
+  [grid]                      # every combination is a setting, such as elites=2,selection=rank
+  elites = [1, 2]
   selection = [\"tournament:3\", \"rank\"]
 
   [[setting]]                 # or, beside or instead of a grid, settings with a name
@@ -37,8 +37,8 @@ convergence.svg.
 Exit codes: 0 done, 1 failed, 2 the definition makes no sense, 130 interrupted.
 
 Examples:
-  islands experiment migration.toml                   into experiments/migration
-  islands experiment migration.toml --threads 2 --json | tail -n 1 | jq .comparisons")]
+  islands experiment elites.toml                   into experiments/elites
+  islands experiment elites.toml --threads 2 --json | tail -n 1 | jq .comparisons")]
 pub struct ExperimentArgs {
     /// The file that says what is compared
     #[arg(value_name = "FILE.toml")]

@@ -168,7 +168,7 @@ impl Definition {
             check_name(&name)?;
             check_table(&format!("setting {name}"), &own)?;
             if let Some(both) = own.keys().find(|key| self.grid.contains_key(*key)) {
-                return Err(format!("setting {name} says {both}, and so does [grid]: one can"));
+                return Err(format!("both [grid] and setting {name} say {both}"));
             }
             named.push((name, own));
         }

@@ -11,6 +11,8 @@ mod crew;
 mod definition;
 mod progress;
 mod tables;
+#[cfg(test)]
+mod tests;
 mod trial;
 
 pub use args::ExperimentArgs;

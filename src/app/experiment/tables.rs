@@ -7,7 +7,8 @@ use serde::Serialize;
 
 /// A row a run. The last column is the only one that the definition does not fix.
 pub fn runs_csv(plan: &Plan, runs: &[Vec<Run>]) -> Vec<u8> {
-    let fixed = ["final_generation", "evaluations", "best", "success", "evaluations_to_target"];
+    let fixed = ["final_generation", "evaluations", "best", "confirmed"];
+    let fixed = fixed.into_iter().chain(["success", "evaluations_to_target"]);
     let varied = plan.varied.iter().map(String::as_str);
     let head = ["setting"].into_iter().chain(varied).chain(["seed"]).chain(fixed);
     let mut rows = vec![head.chain(["digest", "seconds"]).map(str::to_owned).collect::<Vec<_>>()];
@@ -23,7 +24,7 @@ pub fn runs_csv(plan: &Plan, runs: &[Vec<Run>]) -> Vec<u8> {
     csv(|writer| rows.iter().try_for_each(|row| writer.write_record(row)))
 }
 
-fn cells(run: &Run, target: Option<f64>) -> [String; 8] {
+fn cells(run: &Run, target: Option<f64>) -> [String; 9] {
     let (trial, end) = (&run.trial, run.trial.end());
     let reached = target.map(|target| trial.evaluations_to(target));
     [
@@ -31,6 +32,7 @@ fn cells(run: &Run, target: Option<f64>) -> [String; 8] {
         end.generation.to_string(),
         end.evaluations.to_string(),
         end.best.map(exactly).unwrap_or_default(),
+        trial.confirmed.map(exactly).unwrap_or_default(),
         reached.map(|reached| reached.is_some().to_string()).unwrap_or_default(),
         reached.flatten().map(|evaluations| evaluations.to_string()).unwrap_or_default(),
         trial.digest.clone(),
@@ -155,13 +157,12 @@ fn markdown<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
     lines.concat()
 }
 
+/// The shortest text that is read back to the same bits.
 fn exactly(value: f64) -> String {
-    // The shortest text that is read back to the same bits.
-    let mut buffer = value.to_string();
-    if value.is_finite() && value != 0.0 && !(1e-5..1e16).contains(&value.abs()) {
-        buffer = format!("{value:e}");
+    match value.abs() {
+        0.0 | 1e-5..1e16 => value.to_string(),
+        _ => format!("{value:e}"),
     }
-    buffer
 }
 
 /// A number with four digits that count.

@@ -16,6 +16,8 @@ pub struct Trial {
     pub digest: String,
     /// The unit of fitness.
     pub unit: String,
+    /// The best fitness of a champion in the eyes of [`Problem::confirm`], if it has a say.
+    pub confirmed: Option<f64>,
     /// Every generation, from 0.
     pub curve: Vec<Point>,
 }
@@ -83,8 +85,9 @@ fn evolve<P: Problem>(
         },
     );
     let digest = Digest::of(&islands).to_string();
-    let trial = Trial { digest, unit: problem.unit().to_owned(), curve: record.curve };
-    (!stopped).then_some(trial)
+    let unit = problem.unit().to_owned();
+    let confirmed = record.confirmed.and_then(Fitness::finite);
+    (!stopped).then_some(Trial { digest, unit, confirmed, curve: record.curve })
 }
 
 /// What a run may spend.
@@ -112,6 +115,7 @@ struct Record {
     reports: Vec<Report>,
     evaluations: u64,
     best: Fitness,
+    confirmed: Option<Fitness>,
     curve: Vec<Point>,
 }
 
@@ -122,11 +126,14 @@ impl Record {
             reports: Vec::new(),
             evaluations: 0,
             best: Fitness::WORST,
+            confirmed: None,
             curve: Vec::new(),
         }
     }
 
     fn observe<G>(&mut self, step: &Step<G>) {
+        let confirmed = step.champion.as_ref().and_then(|champion| champion.confirmed);
+        self.confirmed = self.confirmed.max(confirmed);
         self.best = self.best.max(step.island.champion.fitness);
         self.evaluations += step.report.effort.evaluations;
         self.reports.push(step.report);
@@ -156,6 +163,8 @@ mod tests {
             islands: 2,
             population: 4,
             genes: 1,
+            elites: 1,
+            point_rate: 0.5,
             generations: 3,
             seed: Some(3),
             engine: Engine::Featherstone,
