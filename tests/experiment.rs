@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fs;
 
 const BASE: &str = "[base]\nengine = \"featherstone\"\nislands = 2\npopulation = 4\ngenes = 2\nmigration-interval = 1\n";
-const GRID: &str = "[grid]\nmigrants = [0, 1]\nselection = [\"rank\", \"tournament:2\"]\n";
+const GRID: &str = "[grid]\nmigrants = [0, 1]\nselection = [\"rank:1.8\", \"tournament:2\"]\n";
 
 /// The rows of a table, a map from column to cell each.
 fn rows(world: &World, name: &str) -> Vec<BTreeMap<String, String>> {
@@ -86,7 +86,7 @@ fn a_run_that_its_budget_ended_is_the_run_of_as_many_generations() {
 #[test]
 fn an_experiment_that_is_interrupted_keeps_what_has_finished_and_goes_on_whatever_the_threads() {
     let world = World::new();
-    world.write("some.toml", format!("seeds = 6\n{BASE}generations = 12\n{GRID}"));
+    world.write("some.toml", format!("seeds = 5\n{BASE}generations = 8\n{GRID}"));
     let running = world.start("experiment some.toml --out a --threads 3");
     until("some runs have finished", || finished_runs(&world, "a").len() >= 2);
     let refusal = world.islands("experiment some.toml --out a");
@@ -100,13 +100,13 @@ fn an_experiment_that_is_interrupted_keeps_what_has_finished_and_goes_on_whateve
     let count = kept.len();
     assert_eq!(
         said,
-        format!("error: interrupted: {count} of 24 runs are kept in a; the same command goes on")
+        format!("error: interrupted: {count} of 20 runs are kept in a; the same command goes on")
     );
-    assert!((2..24).contains(&count) && !world.path("a/.partial").exists());
+    assert!((2..20).contains(&count) && !world.path("a/.partial").exists());
 
     let old = kept.iter().map(|name| world.read(&format!("a/runs/{name}"))).collect::<Vec<_>>();
     let ending = world.islands("experiment some.toml --out a --threads 3 --json");
-    says(&ending, &format!("{count} of 24 runs are there already"));
+    says(&ending, &format!("{count} of 20 runs are there already"));
     assert_eq!(ending.json()["kept"], count);
     let new = kept.iter().map(|name| world.read(&format!("a/runs/{name}"))).collect::<Vec<_>>();
     assert!(old == new, "what was there was not run again");
@@ -174,5 +174,11 @@ fn an_experiment_that_makes_no_sense_is_refused_before_anything_is_made() {
         "fine.toml --threads 0",
     ]
     .map(|arguments| world.refusal(&format!("experiment {arguments}")));
-    expect![[]].assert_eq(&refusals.join("\n"));
+    expect![[r#"
+        cannot use nowhere.toml: No such file or directory (os error 2); name the file of an experiment, see islands experiment --help
+        cannot use unknown.toml: [base] has an unknown setting popluation: see islands run --help
+        cannot use impossible.toml: setting migrants=30: 30 migrants are more than there can be: take at most 24, with a population of 24
+        cannot use full: it holds something that is no experiment; choose another folder with --out
+        --threads must be from 1 to 4096"#]]
+    .assert_eq(&refusals.join("\n"));
 }

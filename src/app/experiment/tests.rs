@@ -137,7 +137,30 @@ fn what_makes_no_sense_is_refused_by_its_name() {
     ];
     let said: Vec<String> =
         refusals.iter().map(|text| plan(text).expect_err("it makes no sense")).collect();
-    expect![[]].assert_eq(&said.join("\n"));
+    expect![[r#"
+        line 1: unknown field `sedes`, expected one of `seeds`, `evaluations`, `target`, `version`, `base`, `grid`, `setting`
+        evaluations must be at least 1
+        target must be a finite number
+        [base] has an unknown setting popluation: see islands run --help
+        [base] population: invalid type: string "many", expected usize
+        setting base: population must be from 2 to 100000, not 1
+        [base] must not say seed: say seeds, above all tables
+        [base] must not say seed-genomes: runs of an experiment begin with random genomes
+        [base] must not say threads: say --threads
+        [grid] migrants must be a list of values
+        [grid] migrants must be a list of values
+        setting migrants=40: 40 migrants are more than there can be: take at most 24, with a population of 24
+        [grid] migrants: invalid type: string "x", expected usize
+        two settings are called migrants=3
+        [grid] has an unknown setting nothing: see islands run --help
+        both [grid] and setting a say genes
+        each [[setting]] needs a name, which is text
+        “a|b” is no name for a setting: take up to 200 characters, and no |
+        setting a has an unknown setting nothing: see islands run --help
+        two settings are called a
+        settings a and b are the same
+        these are more than 100000 runs"#]]
+    .assert_eq(&said.join("\n"));
 }
 
 #[test]
