@@ -7,6 +7,7 @@ mod cli;
 mod confirmation;
 mod course;
 mod determinism;
+mod experiment;
 mod exploits;
 mod faults;
 mod forger;

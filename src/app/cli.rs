@@ -3,6 +3,7 @@
 use super::body_args::ChangeArgs;
 pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
 use super::config::FREE;
+pub use super::experiment::ExperimentArgs;
 use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
 use crate::choice;
@@ -76,6 +77,8 @@ pub enum Command {
     Run(Box<RunArgs>),
     /// Go on with a run that was interrupted or crashed, or make a finished one longer
     Resume(Box<ResumeArgs>),
+    /// Compare settings: a grid of them times seeds, with statistics and a plot
+    Experiment(ExperimentArgs),
     /// Score genomes
     Evaluate(EvaluateArgs),
     /// Show the body that a genome or a URDF describes

@@ -2,7 +2,7 @@
 
 mod file;
 
-pub use file::FILE_BYTES_MAX;
+pub use file::{FILE_BYTES_MAX, one_line};
 
 use super::Failure;
 use super::catalogue::Kind;

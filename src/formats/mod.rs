@@ -6,11 +6,13 @@
 //! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
 //! - [`urdf`] reads and writes bodies for other simulators; [`mjcf`] writes them for MuJoCo, [`stl`] for printers.
 //! - [`motion`] is how a body moved.
+//! - [`chart`] draws curves with bands, as SVG.
 //!
-//! Architecture invariant: nothing here opens a file or changes what it is given; each format reads from any
+//! Architecture invariant: this alone imports plotters. Nothing here opens a file or changes what it is given; each format reads from any
 //! reader or writes to any writer.
 
 pub mod body_inspection;
+pub mod chart;
 pub mod course;
 pub mod genome_csv;
 pub mod inspection;

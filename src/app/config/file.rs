@@ -44,15 +44,25 @@ impl Config {
 
     fn parse_for(text: &str, wish: Wish) -> Result<Self, String> {
         let wrong = |error: toml::de::Error| one_line(&error, text);
-        let alone: Self = toml::from_str(text).map_err(wrong)?;
         let said: Table = toml::from_str(text).map_err(wrong)?;
+        toml::from_str::<Self>(text).map_err(wrong)?;
+        Self::of_table(said, wish).map_err(|error| wrong(*error))
+    }
+
+    /// What a table says over the defaults of its problem.
+    ///
+    /// # Errors
+    /// If it says something that a configuration does not know.
+    pub fn of_table(said: Table, wish: Wish) -> Result<Self, Box<toml::de::Error>> {
+        let alone: Self = said.clone().try_into()?;
         let dimensions = said.contains_key("dimensions").then_some(alone.dimensions);
         let problem = wish.problem.unwrap_or(alone.problem);
         let wish = Wish { problem: Some(problem), dimensions: wish.dimensions.or(dimensions) };
-        let mut all = Table::try_from(Self::default_for(wish)).map_err(|it| it.to_string())?;
+        let usual = Table::try_from(Self::default_for(wish));
+        let mut all = usual.expect("a configuration is plain data within TOML's ranges");
         all.extend(said);
         all.insert("problem".to_owned(), problem.to_string().into());
-        all.try_into().map_err(wrong)
+        Ok(all.try_into()?)
     }
 
     /// Reads the configuration of a run that was launched.
@@ -109,7 +119,7 @@ impl Config {
 }
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.
-fn one_line(error: &toml::de::Error, text: &str) -> String {
+pub fn one_line(error: &toml::de::Error, text: &str) -> String {
     // It may quote the file: neither at any length nor what a terminal would obey.
     let shown = error.message().chars().take(COMPLAINT_MAX);
     let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
