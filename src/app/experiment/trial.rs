@@ -228,8 +228,11 @@ mod tests {
 
     #[test]
     fn the_best_only_rises_and_a_target_is_reached_with_the_first_generation_as_good() {
-        let trial = run_one(&config(), None, || false).expect("nobody stops it");
+        let config = Config { elites: 0, generations: 8, ..config() };
+        let trial = run_one(&config, None, || false).expect("nobody stops it");
         assert!(trial.curve.is_sorted_by_key(|point| point.best));
+        assert!(!trial.curve.is_sorted_by_key(|point| point.mean), "there is worse, too");
+        assert!(trial.curve.iter().all(|point| point.best > point.mean));
         let second = trial.curve[1];
         let reached = trial.evaluations_to(second.best.expect("something was scored"));
         let first = trial.curve.iter().find(|point| point.best == second.best);
