@@ -34,10 +34,10 @@ fn processes_that_evolve_numbers_or_bits_equal_an_archipelago_in_one_process() {
 fn whoever_evaluates_a_champion_gets_its_fitness_to_the_last_bit() {
     let world = World::new();
     let problems = [
-        ("a", "--problem ackley --dimensions 4 --rotated"),
-        ("b", "--problem schwefel --dimensions 4 --instance 9"),
-        ("c", "--problem trap --dimensions 12 --block 4"),
-        ("d", "--problem royal-road"),
+        ("a", "--problem ackley --rotated --dimensions=4"),
+        ("b", "--problem schwefel --instance 9 --dimensions=4"),
+        ("c", "--problem trap --block 4 --dimensions=12"),
+        ("d", "--problem royal-road --dimensions=64"),
     ];
     for (name, problem) in problems {
         let rest = "--n 1 --seed 3 --population 6 --generations 5 --no-monitor --json";
@@ -45,7 +45,8 @@ fn whoever_evaluates_a_champion_gets_its_fitness_to_the_last_bit() {
         let scores = world.json(&format!("evaluate {name}/champion.csv {problem} --json"));
         assert_eq!(scores["genomes"][0]["fitness"], run["best_fitness"], "{problem}");
         assert_eq!(scores["problem"], run["problem"]);
-        let other = format!("evaluate {name}/champion.csv {problem} --dimensions 500");
+        let other = problem.split("--dimensions").next().unwrap();
+        let other = format!("evaluate {name}/champion.csv {other} --dimensions 500");
         assert!(world.refusal(&other).contains("--dimensions"), "{problem}");
     }
 }
@@ -70,7 +71,7 @@ fn a_champion_stands_in_a_table_with_the_variables_that_its_genes_are() {
 fn a_run_of_numbers_whose_launcher_is_killed_goes_on_to_the_same_result_and_verifies() {
     let world = World::new();
     // Long enough to be killed in the middle.
-    let settings = format!("{RASTRIGIN} --generations 1500");
+    let settings = RASTRIGIN.replace("--generations 30", "--generations 1500");
     let expected = world.digest("undisturbed", &settings);
     let dir = RunDir::at(world.path("run"));
     {
@@ -185,7 +186,24 @@ fn what_makes_no_sense_for_a_problem_is_refused_with_a_sentence() {
         "evaluate run/champion.csv --problem rastrigin --dimensions 5 --task course",
     ];
     #[cfg(feature = "view")]
-    expect![[r#""#]].assert_eq(&refusals.map(|wish| world.refusal(wish)).join("\n"));
+    expect![[r#"
+        invalid value 'cube' for '--problem <PROBLEM>': unknown problem “cube”: choose one of creatures, sphere, rastrigin, rosenbrock, ackley, schwefel, griewank, onemax, trap, royal-road
+        task means nothing to sphere: leave it out, or choose another --problem
+        genes means nothing to sphere: leave it out, or choose another --problem
+        block means nothing to rastrigin: leave it out, or choose another --problem
+        rotated means nothing to onemax: leave it out, or choose another --problem
+        dimensions means nothing to creatures: leave it out, or choose another --problem
+        12 bits cannot be cut into blocks of 5: change --dimensions or --block
+        dimensions must be from 2 to 1000, not 1
+        dimensions must be from 1 to 1000, not 1001
+        a run cannot go on with another problem: it is rastrigin of 5, not sphere of 5; leave that out, or start a new run
+        a run cannot go on with another problem: it is rastrigin of 5, not rastrigin of 6; leave that out, or start a new run
+        replay shows creatures, and this is a run of rastrigin, whose genomes have no bodies
+        cannot use run/champion.csv: it is a genome of another problem, and describes no creature; islands evaluate takes it with the --problem that it is of
+        cannot use run/champion.csv: it is a genome of another problem, and describes no creature; islands evaluate takes it with the --problem that it is of
+        cannot use run/champion.csv: it is a genome of another problem, and describes no creature; islands evaluate takes it with the --problem that it is of
+        cannot use run/champion.csv: the file holds 5 genes where there must be 30: give a gene a line, or another --dimensions
+        task means nothing to rastrigin: leave it out, or choose another --problem"#]].assert_eq(&refusals.map(|wish| world.refusal(wish)).join("\n"));
     #[cfg(not(feature = "view"))]
     refusals.map(|wish| world.refusal(wish));
 }

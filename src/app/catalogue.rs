@@ -162,9 +162,11 @@ impl Config {
         }
         let is_whole = (1..=dimensions).contains(&block) && dimensions.is_multiple_of(block);
         match problem {
-            Kind::Bits(_) if !is_whole => Err(Failure::usage(format!(
-                "{dimensions} bits cannot be cut into blocks of {block}: change --dimensions or --block"
-            ))),
+            Kind::Bits(Pattern::Trap | Pattern::RoyalRoad) if !is_whole => {
+                Err(Failure::usage(format!(
+                    "{dimensions} bits cannot be cut into blocks of {block}: change --dimensions or --block"
+                )))
+            }
             _ => Ok(()),
         }
     }
