@@ -29,6 +29,8 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// What differs in a trial: drawn for a trial's index alone, on no island and in no generation.
+    Perturbation = 4,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

@@ -5,7 +5,7 @@ use super::seeds::SeedGenomes;
 use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
 use crate::evolution::{Selection, Strategy, Variation};
-use crate::problems::{Locomotion, Task};
+use crate::problems::{Locomotion, RobustBy, Robustness, Task};
 use crate::simulation::Engine;
 use crate::store::{RunDir, file};
 use crate::transport::Domain;
@@ -55,6 +55,10 @@ pub struct Config {
     pub profile: Profile,
     /// What moves the bodies.
     pub engine: Engine,
+    /// Perturbed trials of a genome; 0 for one that is not perturbed.
+    pub robustness: u32,
+    /// What their scores come to.
+    pub robust_by: RobustBy,
     /// Genes of a random genome.
     pub genes: usize,
     /// No genome gets longer than this, in genes.
@@ -122,6 +126,8 @@ impl Default for Config {
             task: Task::Walk,
             profile: Profile::Native,
             engine: Engine::Rapier,
+            robustness: 0,
+            robust_by: RobustBy::Worst,
             genes: 4,
             max_genes: 12,
             max_links: 32,
@@ -221,6 +227,7 @@ impl Config {
         within("max-genes", self.max_genes as f64, 1.0, GENES_MAX as f64)?;
         within("genes", self.genes as f64, 1.0, self.max_genes as f64)?;
         within("max-links", self.max_links as f64, 1.0, LINKS_MAX as f64)?;
+        within("robustness", f64::from(self.robustness), 0.0, f64::from(Robustness::TRIALS_MAX))?;
         within("elites", self.elites as f64, 0.0, self.population as f64 - 1.0)?;
         within("crossover-rate", self.crossover_rate, 0.0, 1.0)?;
         within("point-rate", self.point_rate, 0.0, 1.0)?;
@@ -333,6 +340,7 @@ impl Config {
             genes: self.genes,
             links_max: self.max_links,
             engine: self.engine,
+            robustness: Robustness { trials: self.robustness, by: self.robust_by },
         }
     }
 }
@@ -375,6 +383,7 @@ mod tests {
             Config { point_rate: f64::NAN, ..sound.clone() },
             Config { migration_interval: 0, ..sound.clone() },
             Config { threads: Some(0), ..sound.clone() },
+            Config { robustness: 101, ..sound.clone() },
             Config { clip_every: Some(0), ..sound.clone() },
             Config { threads: Some(usize::MAX), ..sound.clone() },
             Config { seed: Some(u64::MAX), ..sound.clone() },

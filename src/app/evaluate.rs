@@ -58,7 +58,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
     let wall_seconds = watch.seconds();
 
     let whole = evaluations.iter().filter(|e| e.fitness.finite().is_some()).count();
-    let steps = whole as f64 * f64::from(args.trial.task.trial().steps());
+    let steps = whole as f64 * problem.steps() as f64;
     let scores = Scores {
         task: args.trial.task.to_string(),
         profile: args.trial.read.profile.to_string(),
