@@ -127,9 +127,8 @@ mod tests {
     use super::super::trial::Start;
     use super::*;
 
-    #[test]
-    fn a_jump_that_takes_its_grip_from_the_ground_is_no_push() {
-        let trial = Trial {
+    fn trial() -> Trial {
+        Trial {
             steps_per_s: 240,
             perturbation: Perturbation::NONE,
             gravity_m_s2: 9.81,
@@ -137,13 +136,45 @@ mod tests {
             settle_s: 0.0,
             scored_s: 2.0,
             keeps_ledger: true,
-        };
-        let mut ledger = Ledger::new(&trial, 24, Vector3::zeros(), Vector3::zeros());
+        }
+    }
+
+    #[test]
+    fn a_jump_that_takes_its_grip_from_the_ground_is_no_push() {
+        let mut ledger = Ledger::new(&trial(), 24, Vector3::zeros(), Vector3::zeros());
         let (fall_m, hop_m) = (-9.81 * 0.01, 0.05);
         ledger.enter(Vector3::zeros()).unwrap();
         assert_eq!(ledger.enter(Vector3::new(0.03, 0.0, hop_m)), Ok(()));
         let falling = Vector3::new(0.06, 0.0, 2.0 * hop_m + fall_m);
         assert_eq!(ledger.clone().enter(falling), Ok(()));
         assert_eq!(ledger.enter(falling + Vector3::x() * 0.02), Err(Outcome::Unphysical));
+    }
+    #[test]
+    fn what_rubber_may_do_is_a_push_on_ice() {
+        let enter = |friction| {
+            let perturbation = Perturbation { friction, ..Perturbation::NONE };
+            let trial = Trial { perturbation, ..trial() };
+            let mut ledger = Ledger::new(&trial, 24, Vector3::zeros(), Vector3::zeros());
+            ledger.enter(Vector3::zeros())?;
+            // Twice 0.27 m/s more than before; of each, usual friction allows 0.245, and 0.1 in all is passed over.
+            ledger.enter(Vector3::x() * 0.027)?;
+            ledger.enter(Vector3::x() * 0.081)
+        };
+        assert_eq!(enter(1.25), Ok(()));
+        assert_eq!(enter(0.75), Err(Outcome::Unphysical));
+    }
+
+    #[test]
+    fn a_push_that_is_entered_is_no_excess_and_must_be_what_was_entered() {
+        let enter = |push_m_s: f64| {
+            let mut ledger = Ledger::new(&trial(), 24, Vector3::zeros(), Vector3::zeros());
+            ledger.enter(Vector3::zeros())?;
+            ledger.enter_push(Vector3::x() * push_m_s);
+            ledger.enter(Vector3::x() * 0.06)?;
+            ledger.enter(Vector3::x() * 0.12)
+        };
+        assert_eq!(enter(0.6), Ok(()));
+        assert_eq!(enter(0.0), Err(Outcome::Unphysical));
+        assert_eq!(enter(-0.6), Err(Outcome::Unphysical));
     }
 }

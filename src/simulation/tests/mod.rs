@@ -11,6 +11,7 @@ mod hinge;
 mod lab;
 mod ledger;
 mod pendulum;
+mod perturbed;
 mod sliding;
 
 use super::perturbation::Perturbation;
