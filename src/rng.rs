@@ -29,8 +29,12 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
-    /// What differs in a trial: drawn for a trial's index alone, on no island and in no generation.
-    Perturbation = 4,
+    /// What is drawn from a distribution that learns, and where that begins again.
+    Sampling = 4,
+    /// Where a benchmark has its optimum: drawn once, for all runs alike.
+    Instance = 16,
+    /// What differs in a trial: drawn for a trial's index alone, for all runs alike.
+    Perturbation = 20,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

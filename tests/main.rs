@@ -7,6 +7,7 @@ mod cli;
 mod confirmation;
 mod course;
 mod determinism;
+mod experiment;
 mod exploits;
 mod faults;
 mod forger;
@@ -14,6 +15,7 @@ mod format;
 mod hostile;
 mod imports;
 mod physics;
+mod problems;
 #[cfg(feature = "view")]
 mod recording;
 #[cfg(feature = "view")]

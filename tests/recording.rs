@@ -47,6 +47,23 @@ fn a_recording_holds_the_curves_of_every_island() {
 }
 
 #[test]
+fn a_recording_of_numbers_holds_curves_families_and_events_and_nothing_in_space() {
+    let world = World::new();
+    let settings = "--problem ackley --dimensions 3 --population 6 --generations 12";
+    world.json(&format!(
+        "--n 2 --seed 43 --out run --quiet --json --migration-interval 3 {settings}"
+    ));
+    let recording = Recording::read(&world.path("run/recording.rrd"));
+    assert_eq!(recording.generations(2), Vec::from_iter(0..=12));
+    let events = recording.texts("/events").join("\n");
+    assert!(events.contains("new champion, -") && events.contains("migration 0 → 1"), "{events}");
+    assert!(recording.chunks("/family").next().is_some());
+    let entities: BTreeSet<String> = recording.rows().into_keys().map(|key| key.0).collect();
+    let in_space = |path: &&String| path.starts_with("/islands") || path.starts_with("/race");
+    assert_eq!(entities.iter().find(in_space), None);
+}
+
+#[test]
 fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
     let world = World::new();
     let settings = "--population 6 --generations 6 --genes 2";

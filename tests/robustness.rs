@@ -153,7 +153,7 @@ fn what_a_run_says_of_robust_champions_is_what_everybody_else_finds() {
     let wish = "--engine featherstone --robustness 2 --robust-by mean";
     let result = world.json(&format!("--n 2 --seed 3 --out run --json --view off {wish} {TINY}"));
     let dir = RunDir::at(world.path("run"));
-    let problem = Config::read(&dir.config()).unwrap().problem();
+    let problem = Config::read(&dir.config()).unwrap().locomotion();
     assert_eq!(problem.robustness, Robustness { trials: 2, by: RobustBy::Mean });
     let judge = Locomotion { engine: Engine::Rapier, ..problem };
     for island in 0..2 {

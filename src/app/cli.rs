@@ -3,6 +3,8 @@
 use super::body_args::ChangeArgs;
 pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
 use super::config::FREE;
+pub use super::experiment::ExperimentArgs;
+use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
 use crate::choice;
 use crate::creature::Profile;
@@ -21,6 +23,7 @@ use std::path::PathBuf;
     after_help = "Examples:
   islands --n 4                      four islands evolve walkers
   islands run --n 4 --seed 7         the same, with a seed that fixes the result to the last bit
+  islands run --problem rastrigin --dimensions 10   four islands look for the lowest point
   islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
   islands replay runs/walk-seed7 --ancestry --view spawn
@@ -74,6 +77,8 @@ pub enum Command {
     Run(Box<RunArgs>),
     /// Go on with a run that was interrupted or crashed, or make a finished one longer
     Resume(Box<ResumeArgs>),
+    /// Compare settings: a grid of them times seeds, with statistics and a plot
+    Experiment(ExperimentArgs),
     /// Score genomes
     Evaluate(EvaluateArgs),
     /// Show the body that a genome or a URDF describes
@@ -109,7 +114,7 @@ pub struct RunArgs {
     /// A file that says the same as these flags, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
-    /// Folder for the run's files, new or empty [default: runs/<task>-seed<seed>]
+    /// Folder for the run's files, new or empty [default: runs/<task or problem>-seed<seed>]
     #[arg(long, value_name = "DIR", help_heading = "Running")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -203,9 +208,11 @@ impl std::str::FromStr for Watching {
 /// Scoring.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
-    /// Files of genomes: a gene a line, 17 numbers from 0 to 1
+    /// Files of genomes: a gene a line, of creatures 17 numbers from 0 to 1
     #[arg(required = true, value_name = "GENOME.csv")]
     pub genomes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub problem: ProblemArgs,
     #[command(flatten)]
     pub trial: TrialArgs,
     /// Threads [default: all cores]

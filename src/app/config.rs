@@ -1,16 +1,21 @@
-//! The whole of a run in one struct.
+//! The whole of a run in one struct: [`mod@file`] reads and writes it.
+
+mod file;
+
+pub use file::{FILE_BYTES_MAX, one_line};
 
 use super::Failure;
+use super::catalogue::Kind;
 use super::seeds::SeedGenomes;
-use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
+use crate::archipelago::{Algorithm, Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
-use crate::evolution::{Selection, Strategy, Variation};
+use crate::evolution::{
+    Adaptation, Crossover, Mutation, Reproduction, Selection, Strategy, Survival, Variation,
+};
 use crate::problems::{Locomotion, RobustBy, Robustness, Task};
 use crate::simulation::Engine;
-use crate::store::{RunDir, file};
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
-use std::path::Path;
 
 /// The most islands of a run.
 pub const ISLANDS_MAX: u32 = 256;
@@ -31,11 +36,6 @@ pub const THREADS_MAX: usize = 4_096;
 /// other ones.
 pub const FREE: [&str; 4] = ["generations", "threads", "checkpoint-interval", "clip-every"];
 
-/// The largest configuration file, in bytes; ours have a thousand.
-pub const FILE_BYTES_MAX: usize = 1 << 20;
-/// The longest complaint about a file that is passed on, in characters.
-const COMPLAINT_MAX: usize = 400;
-
 /// Everything that decides a run. Command-line flags of the same names win over a file, and what neither
 /// says has the default.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -45,10 +45,22 @@ pub struct Config {
     pub islands: u32,
     /// Seed of all randomness; none until one is picked at launch.
     pub seed: Option<u64>,
+    /// What searches.
+    pub algorithm: Algorithm,
     /// Generations after the random first one.
     pub generations: u32,
     /// Individuals on each island.
     pub population: usize,
+    /// What is evolved: creatures, points of a function or bits.
+    pub problem: Kind,
+    /// Variables of a function, or bits of a genome.
+    pub dimensions: usize,
+    /// Which shift and rotation a function has.
+    pub instance: u64,
+    /// Whether a function is rotated.
+    pub rotated: bool,
+    /// Bits of a block of a trap or a royal road.
+    pub block: usize,
     /// What creatures have to do.
     pub task: Task,
     /// How genes are read.
@@ -69,16 +81,28 @@ pub struct Config {
     pub selection: Selection,
     /// How many of the best live on unchanged.
     pub elites: usize,
+    /// How the next population is made of the old one and its offspring.
+    pub survival: Survival,
+    /// How two parents are recombined.
+    pub crossover: Crossover,
     /// Probability of an offspring to have two parents.
     pub crossover_rate: f64,
+    /// How a value is changed.
+    pub mutation: Mutation,
     /// Probability of each value of each gene to be changed.
     pub point_rate: f64,
-    /// The most by which a value is changed, as a share of its range.
+    /// The scale of such a change, as a share of the value's range.
     pub point_amount: f64,
     /// Probability of an offspring to lose a gene.
     pub shrink_rate: f64,
     /// Probability of an offspring to gain a gene.
     pub grow_rate: f64,
+    /// Probability of an offspring to repeat one of its limbs.
+    pub duplicate_rate: f64,
+    /// What changes the scale of mutation from one generation to the next.
+    pub adaptation: Adaptation,
+    /// Whether each island has crossover and mutation rates of its own.
+    pub heterogeneous: bool,
     /// Who sends migrants to whom.
     pub topology: Topology,
     /// Generations between two exchanges.
@@ -118,26 +142,40 @@ pub struct Launch {
 
 impl Default for Config {
     fn default() -> Self {
+        let strategy = Strategy::default();
+        let variation = strategy.variation;
         Self {
             islands: 4,
             seed: None,
+            algorithm: Algorithm::Ga,
             generations: 80,
-            population: 24,
+            population: strategy.population,
+            problem: Kind::Creatures,
+            dimensions: 30,
+            instance: 1,
+            rotated: false,
+            block: 5,
             task: Task::Walk,
             profile: Profile::Native,
             engine: Engine::Rapier,
             robustness: 0,
             robust_by: RobustBy::Worst,
             genes: 4,
-            max_genes: 12,
+            max_genes: variation.genes_max,
             max_links: 32,
-            selection: Selection::Tournament { size: 3 },
-            elites: 2,
-            crossover_rate: 0.3,
-            point_rate: 0.04,
-            point_amount: 0.2,
-            shrink_rate: 0.1,
-            grow_rate: 0.1,
+            selection: strategy.selection,
+            elites: strategy.elites,
+            survival: strategy.survival,
+            crossover: variation.crossover,
+            crossover_rate: variation.crossover_rate,
+            mutation: variation.mutation,
+            point_rate: variation.point_rate,
+            point_amount: variation.point_amount,
+            shrink_rate: variation.shrink_rate,
+            grow_rate: variation.grow_rate,
+            duplicate_rate: variation.duplicate_rate,
+            adaptation: strategy.adaptation,
+            heterogeneous: strategy.heterogeneous,
             topology: Topology::Ring,
             migration_interval: 5,
             migrants: 2,
@@ -153,56 +191,12 @@ impl Default for Config {
 }
 
 impl Config {
-    /// Reads a configuration file.
-    ///
-    /// # Errors
-    /// If it cannot be read, is too large, no TOML, or says something that a configuration does not know.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
-        let wrong =
-            |reason: String| Failure::usage(format!("cannot use {}: {reason}", path.display()));
-        let text = file::read_text(path, FILE_BYTES_MAX).map_err(|error| {
-            wrong(format!("{}; name a file such as a run's run.toml", error.reason()))
-        })?;
-        Self::parse(&text).map_err(wrong)
-    }
-
-    /// Reads what a configuration file says.
-    ///
-    /// # Errors
-    /// What is wrong with it, if it is no TOML or says something that a configuration does not know.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        toml::from_str(text).map_err(|error| one_line(&error, text))
-    }
-
-    /// Reads the configuration of a run that was launched.
-    ///
-    /// # Errors
-    /// If there is none, it cannot be read, is not sound, or was not written by a launch.
-    pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
-        if !dir.config().exists() {
-            return Err(Failure::no_run(dir));
-        }
-        let config = Self::read(&dir.config())?;
-        config.check()?;
-        match config.is_launched() {
-            true => Ok(config),
-            false => Err(Failure::usage(format!(
-                "{} was not written by a run: start one with islands --config {0}",
-                dir.config().display()
-            ))),
-        }
-    }
-
-    /// The file that says the same.
-    pub fn to_toml(&self) -> String {
-        toml::to_string(self).expect("a checked configuration is plain data within TOML's ranges")
-    }
-
     /// Says what is wrong with the configuration, if anything.
     ///
     /// # Errors
     /// One sentence that says what to change.
     pub fn check(&self) -> Result<(), Failure> {
+        self.check_dimensions()?;
         self.check_ranges()?;
         self.check_genes()?;
         self.check_migrants()?;
@@ -211,7 +205,7 @@ impl Config {
             Some(seed) if seed > SEED_MAX => {
                 Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
             }
-            _ => Ok(()),
+            _ => self.check_use(),
         }
     }
 
@@ -234,6 +228,7 @@ impl Config {
         within("point-amount", self.point_amount, 0.0, 1.0)?;
         within("shrink-rate", self.shrink_rate, 0.0, 1.0)?;
         within("grow-rate", self.grow_rate, 0.0, 1.0)?;
+        within("duplicate-rate", self.duplicate_rate, 0.0, 1.0)?;
         within("migration-interval", f64::from(self.migration_interval), 1.0, 1e9)?;
         within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
         within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
@@ -267,23 +262,6 @@ impl Config {
         Ok(())
     }
 
-    /// The settings that decide what evolves, as TOML: all but [`FREE`] and what launched it. States that were
-    /// saved under other ones, or by another version, are of no use.
-    pub fn settings(&self) -> String {
-        self.settings_of(env!("CARGO_PKG_VERSION"))
-    }
-
-    /// The settings as a version of the program has them that knows the same ones.
-    pub fn settings_of(&self, version: &str) -> String {
-        let mut settings =
-            toml::Table::try_from(self).expect("a checked configuration is plain data");
-        for other in FREE.into_iter().chain(["launch"]) {
-            settings.remove(other);
-        }
-        settings.insert("version".to_owned(), version.into());
-        settings.to_string()
-    }
-
     /// Whether it is that of a run: a launch picks a seed where none is said.
     pub fn is_launched(&self) -> bool {
         self.seed.is_some() && self.launch.is_some()
@@ -296,7 +274,7 @@ impl Config {
 
     /// What decides the result of the run, but for the problem. A seed that was not picked yet is 0.
     pub fn archipelago(&self) -> Archipelago {
-        Archipelago {
+        self.algorithm.on(Archipelago {
             islands: self.islands,
             seed: self.seed.unwrap_or_default(),
             topology: self.topology,
@@ -308,8 +286,15 @@ impl Config {
             strategy: Strategy {
                 population: self.population,
                 elites: self.elites,
+                reproduction: Reproduction::Parents,
                 selection: self.selection,
+                survival: self.survival,
+                adaptation: self.adaptation,
+                heterogeneous: self.heterogeneous,
                 variation: Variation {
+                    crossover: self.crossover,
+                    mutation: self.mutation,
+                    duplicate_rate: self.duplicate_rate,
                     crossover_rate: self.crossover_rate,
                     point_rate: self.point_rate,
                     point_amount: self.point_amount,
@@ -318,6 +303,18 @@ impl Config {
                     genes_max: self.max_genes,
                 },
             },
+        })
+    }
+
+    /// The configuration that is run: without islands, all individuals live on one.
+    pub fn settled(self) -> Self {
+        match self.algorithm {
+            Algorithm::Panmictic => {
+                let islands = self.islands as usize;
+                let population = self.population.saturating_mul(islands);
+                Self { islands: 1, population, elites: self.elites.saturating_mul(islands), ..self }
+            }
+            _ => self,
         }
     }
 
@@ -331,8 +328,8 @@ impl Config {
         Ok(launch.run_id.parse::<Domain>()?)
     }
 
-    /// The problem that is solved.
-    pub fn problem(&self) -> Locomotion {
+    /// The problem of locomotion that is solved where creatures are evolved.
+    pub fn locomotion(&self) -> Locomotion {
         Locomotion {
             profile: self.profile,
             scales: self.scales,
@@ -342,17 +339,6 @@ impl Config {
             engine: self.engine,
             robustness: Robustness { trials: self.robustness, by: self.robust_by },
         }
-    }
-}
-
-/// TOML's errors draw the line that they complain of; ours are one sentence.
-fn one_line(error: &toml::de::Error, text: &str) -> String {
-    // It may quote the file: neither at any length nor what a terminal would obey.
-    let shown = error.message().chars().take(COMPLAINT_MAX);
-    let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
-    match error.span().and_then(|span| text.get(..span.start)) {
-        Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
-        None => message,
     }
 }
 

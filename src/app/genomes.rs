@@ -5,11 +5,12 @@ use super::body_args::ChangeArgs;
 use super::cli::{ReadArgs, TrialArgs};
 use super::config::LINKS_MAX;
 use super::console::say;
+use super::subject::Subject;
 use super::table::harmless;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{Creature, Gene, Profile, Reading, Scales};
 use crate::formats::urdf::{self, ReadBody};
-use crate::formats::{ReadGenome, genome_csv};
+use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
 use crate::problems::{Locomotion, RobustBy, Robustness};
 use crate::store::file;
 use std::fmt::Display;
@@ -81,7 +82,21 @@ pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Vec<Gene>, Failure> {
 /// What is wrong with it.
 pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String> {
     let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
-    genome_csv::read_without(bytes.as_slice(), dropped).map_err(|error| error.to_string())
+    let read = genome_csv::read_without(bytes.as_slice(), dropped);
+    read.map_err(|error| reason(&bytes, &error))
+}
+
+/// Reads a genome of any problem; what could not be read is for the caller to say.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn read_for<P: Subject>(
+    problem: &P,
+    path: &Path,
+    dropped: &[usize],
+) -> Result<Vec<P::Gene>, String> {
+    let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
+    problem.read_genome(&bytes, dropped)
 }
 
 /// The columns to leave out, if they can be.
@@ -116,8 +131,19 @@ fn wrong(path: &Path, error: &dyn Display) -> Failure {
     Failure::usage(format!("cannot use {}: {error}", path.display()))
 }
 
+/// Why some bytes are no creature's genome.
+fn reason(bytes: &[u8], error: &GenomeCsvError) -> String {
+    match vector_csv::is_ours(bytes) {
+        true => "it is a genome of another problem, and describes no creature; islands evaluate takes it with the \
+                 --problem that it is of"
+            .to_owned(),
+        false => error.to_string(),
+    }
+}
+
 fn genome(bytes: &[u8], path: &Path, dropped: &[usize]) -> Result<Vec<Gene>, Failure> {
-    let read = genome_csv::read_without(bytes, dropped).map_err(|error| wrong(path, &error))?;
+    let read = genome_csv::read_without(bytes, dropped)
+        .map_err(|error| wrong(path, &reason(bytes, &error)))?;
     for clamped in read.clamped.iter().take(SHOWN) {
         say(&format!("warning: {}: {clamped}", path.display()));
     }

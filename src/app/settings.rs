@@ -1,8 +1,10 @@
 //! The flags that say what evolves, and how.
 
 use super::config::Config;
+use super::problem_args::ProblemArgs;
+use crate::archipelago::Algorithm;
 use crate::creature::Profile;
-use crate::evolution::Selection;
+use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
 use crate::problems::{RobustBy, Task};
 use crate::simulation::Engine;
 use clap::Args;
@@ -16,12 +18,18 @@ pub struct SettingArgs {
     /// Seed that fixes the result; picked and printed if none is given
     #[arg(long)]
     pub seed: Option<u64>,
+    /// What searches: ga, or to compare with it random, hill-climb, cma-es or panmictic (one large population)
+    /// [default: ga]
+    #[arg(long)]
+    pub algorithm: Option<Algorithm>,
     /// Generations after the random first one [default: 80]
     #[arg(long, value_name = "G")]
     pub generations: Option<u32>,
     /// Individuals on each island [default: 24]
     #[arg(long, value_name = "P")]
     pub population: Option<usize>,
+    #[command(flatten)]
+    pub problem: ProblemArgs,
     /// What creatures have to do: walk (get away), travel (keep moving) or course (as the course
     /// program measures) [default: walk]
     #[arg(long)]
@@ -49,20 +57,31 @@ pub struct SettingArgs {
     /// No body gets more links than this [default: 32]
     #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
     pub max_links: Option<usize>,
-    /// How parents are picked: roulette, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
+    /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
     /// [default: tournament:3]
     #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
     pub selection: Option<Selection>,
     /// How many of the best live on unchanged [default: 2]
     #[arg(long, value_name = "E", help_heading = "Genetic algorithm")]
     pub elites: Option<usize>,
+    /// How the next population is made: generational, sharing:RADIUS, crowding, afpo or map-elites:BINS
+    /// [default: generational]
+    #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
+    pub survival: Option<Survival>,
+    /// How two parents are recombined: one-point, two-point, uniform, blend:ALPHA or sbx:ETA
+    /// [default: one-point]
+    #[arg(long, value_name = "OPERATOR", help_heading = "Genetic algorithm")]
+    pub crossover: Option<Crossover>,
     /// Probability of an offspring to have two parents [default: 0.3]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub crossover_rate: Option<f64>,
+    /// How a value is changed: uniform, gaussian or polynomial:ETA [default: uniform]
+    #[arg(long, value_name = "OPERATOR", help_heading = "Genetic algorithm")]
+    pub mutation: Option<Mutation>,
     /// Probability of each value of a gene to be changed [default: 0.04]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub point_rate: Option<f64>,
-    /// The most by which a value is changed, as a share of its range [default: 0.2]
+    /// The scale of such a change, as a share of the value's range [default: 0.2]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub point_amount: Option<f64>,
     /// Probability of an offspring to lose a gene [default: 0.1]
@@ -71,6 +90,16 @@ pub struct SettingArgs {
     /// Probability of an offspring to gain a gene [default: 0.1]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub grow_rate: Option<f64>,
+    /// Probability of an offspring to repeat one of its limbs [default: 0.0]
+    #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
+    pub duplicate_rate: Option<f64>,
+    /// What changes the scale of mutation on the way: none, or one-fifth (the 1/5 success rule) [default: none]
+    #[arg(long, value_name = "RULE", help_heading = "Genetic algorithm")]
+    pub adaptation: Option<Adaptation>,
+    /// Give each island crossover and mutation rates of its own [default: false]
+    #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "BOOL",
+        help_heading = "Genetic algorithm")]
+    pub heterogeneous: Option<bool>,
     /// Generations between two exchanges of migrants [default: 5]
     #[arg(long, value_name = "G", help_heading = "Migration")]
     pub migration_interval: Option<u32>,
@@ -96,9 +125,11 @@ pub struct SettingArgs {
 impl SettingArgs {
     /// Lays the flags over a configuration.
     pub fn over(&self, config: Config) -> Config {
+        let config = self.problem.over(config);
         Config {
             islands: self.islands.unwrap_or(config.islands),
             seed: self.seed.or(config.seed),
+            algorithm: self.algorithm.unwrap_or(config.algorithm),
             generations: self.generations.unwrap_or(config.generations),
             population: self.population.unwrap_or(config.population),
             task: self.task.unwrap_or(config.task),
@@ -111,11 +142,17 @@ impl SettingArgs {
             max_links: self.max_links.unwrap_or(config.max_links),
             selection: self.selection.unwrap_or(config.selection),
             elites: self.elites.unwrap_or(config.elites),
+            survival: self.survival.unwrap_or(config.survival),
+            crossover: self.crossover.unwrap_or(config.crossover),
             crossover_rate: self.crossover_rate.unwrap_or(config.crossover_rate),
+            mutation: self.mutation.unwrap_or(config.mutation),
             point_rate: self.point_rate.unwrap_or(config.point_rate),
             point_amount: self.point_amount.unwrap_or(config.point_amount),
             shrink_rate: self.shrink_rate.unwrap_or(config.shrink_rate),
             grow_rate: self.grow_rate.unwrap_or(config.grow_rate),
+            duplicate_rate: self.duplicate_rate.unwrap_or(config.duplicate_rate),
+            adaptation: self.adaptation.unwrap_or(config.adaptation),
+            heterogeneous: self.heterogeneous.unwrap_or(config.heterogeneous),
             topology: config.topology,
             migration_interval: self.migration_interval.unwrap_or(config.migration_interval),
             migrants: self.migrants.unwrap_or(config.migrants),
@@ -126,6 +163,7 @@ impl SettingArgs {
             scales: config.scales,
             seed_genomes: config.seed_genomes,
             launch: None,
+            ..config
         }
     }
 }
@@ -142,8 +180,9 @@ mod tests {
             --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
-            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone \
-            --robustness 9 --robust-by mean";
+            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone --algorithm random --survival crowding \
+            --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
+            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by mean";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

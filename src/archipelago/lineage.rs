@@ -4,16 +4,16 @@
 //! is all that has to be kept of a generation: genomes need not be, since an offspring's genome depends on its
 //! parents' genomes and on its place alone. So a hundred bytes tell what a whole ancestry looked like.
 
-use super::{Archipelago, Island};
+use super::Archipelago;
 use crate::evolution::generation::{self, Moment};
-use crate::evolution::{Fitness, Id, Problem};
+use crate::evolution::{Fitness, Id, Individual, Memory, Problem, Reproduction};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How an individual came to be.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Birth {
-    /// Whom it comes from: none in generation 0, one where crossover did not happen, else two.
+    /// Whom it comes from: nobody if it is random, one where crossover did not happen, else two.
     pub parents: [Option<Id>; 2],
     /// What it is worth.
     pub fitness: Fitness,
@@ -24,17 +24,18 @@ pub struct Birth {
 pub struct Births {
     /// The generation.
     pub generation: u32,
+    /// What [`Memory::amount_scale`] was when they were bred.
+    pub amount_scale: f64,
     /// Each of them.
     pub births: Vec<Birth>,
 }
 
 impl Births {
-    /// Those who were born in the newest generation of an island: all offspring live for one generation at least.
-    pub fn of<G>(island: &Island<G>) -> Self {
-        let here = |id: Id| (id.island, id.generation) == (island.index, island.generation);
-        let born = island.population.iter().filter(|individual| here(individual.id));
-        let births = born.map(|one| Birth { parents: one.parents, fitness: one.fitness });
-        Self { generation: island.generation, births: births.collect() }
+    /// Those of a brood, which need not live on; `memory` is what was known when it was bred.
+    pub fn of<G>(generation: u32, memory: &Memory, brood: &[Individual<G>]) -> Self {
+        let birth = |one: &Individual<G>| Birth { parents: one.parents, fitness: one.fitness };
+        let births = brood.iter().map(birth).collect();
+        Self { generation, amount_scale: memory.amount_scale, births }
     }
 }
 
@@ -54,6 +55,9 @@ pub enum Gap {
     /// other settings.
     #[error("{0} cannot have the parents that it is said to have")]
     Unlike(Id),
+    /// It was drawn from a distribution, which is not recorded.
+    #[error("{0} has no ancestors: it was drawn from a distribution")]
+    Drawn(Id),
 }
 
 impl Lineage {
@@ -100,13 +104,16 @@ impl Lineage {
         for (_, id) in self.ancestors(ids)? {
             let parents = self.birth(id).ok_or(Gap::Unknown(id))?.parents;
             let [mother, father] = parents.map(|id| id.map(|id| &genomes[&id][..]));
-            let strategy = &archipelago.strategy;
-            let source = archipelago.source(id.island);
+            let strategy = &archipelago.strategy.on(id.island, &self.memory_at(id));
+            let (source, index) = (archipelago.source(id.island), id.index as usize);
+            let moment = Moment { source, generation: id.generation };
             let genome = match mother {
-                None => generation::first(problem, strategy, source, id.index as usize),
+                None if strategy.reproduction == Reproduction::CmaEs && id.generation > 0 => {
+                    return Err(Gap::Drawn(id));
+                }
+                None => generation::first(problem, strategy, moment, index),
                 Some(mother) => {
-                    let moment = Moment { source, generation: id.generation };
-                    let (index, other) = (id.index as usize, father.unwrap_or(mother));
+                    let other = father.unwrap_or(mother);
                     let (genome, two_parents) =
                         generation::breed(problem, strategy, moment, index, mother, other);
                     if two_parents != father.is_some() {
@@ -119,6 +126,13 @@ impl Lineage {
         }
         genomes.retain(|id, _| ids.contains(id));
         Ok(genomes)
+    }
+
+    /// What an individual's island knew when it was bred, as far as breeding it depends on it.
+    fn memory_at(&self, id: Id) -> Memory {
+        let births = self.islands.get(&id.island).and_then(|all| all.get(id.generation as usize));
+        let amount_scale = births.map_or(1.0, |births| births.amount_scale);
+        Memory { amount_scale, ..Memory::default() }
     }
 
     /// All ancestors of individuals and themselves, by generation.
@@ -141,7 +155,6 @@ mod tests {
     use super::super::lockstep;
     use super::super::tests::toy::{self, Toy};
     use super::*;
-    use crate::evolution::Individual;
 
     fn archipelago() -> Archipelago {
         toy::archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 })
@@ -152,13 +165,13 @@ mod tests {
         let archipelago = archipelago();
         let (mut lineage, mut everybody) = (Lineage::default(), BTreeMap::new());
         lockstep::run(&Toy, &archipelago, 12, |step| {
-            lineage.push(step.island.index, Births::of(&step.island));
+            lineage.push(step.island.index, step.births.clone());
             everybody.extend(step.island.population.iter().map(|one| (one.id, one.clone())));
         });
         let ids: Vec<Id> = everybody.keys().copied().collect();
         let genomes = lineage.genomes(&ids, &Toy, &archipelago).unwrap();
         let (mut crossed, mut moved) = (0, 0);
-        for Individual { id, parents, genome, fitness } in everybody.into_values() {
+        for Individual { id, parents, genome, fitness, .. } in everybody.into_values() {
             assert_eq!(lineage.birth(id), Some(Birth { parents, fitness }));
             assert_eq!(genomes[&id], genome, "{id}");
             crossed += usize::from(parents[1].is_some());
@@ -171,7 +184,7 @@ mod tests {
     fn a_line_goes_from_a_random_genome_to_whom_it_is_of() {
         let mut lineage = Lineage::default();
         lockstep::run(&Toy, &archipelago(), 12, |step| {
-            lineage.push(step.island.index, Births::of(&step.island));
+            lineage.push(step.island.index, step.births.clone());
         });
         let last = Id { island: 1, generation: 12, index: 0 };
         let line = lineage.line(last);
@@ -187,8 +200,10 @@ mod tests {
         let birth = |parents| Birth { parents, fitness: Fitness::WORST };
         let breed = |parents: [Option<Id>; 2]| {
             let mut lineage = Lineage::default();
-            lineage.push(0, Births { generation: 0, births: vec![birth([None; 2])] });
-            lineage.push(0, Births { generation: 1, births: vec![birth(parents)] });
+            for (generation, parents) in (0..).zip([[None; 2], parents]) {
+                let births = vec![birth(parents)];
+                lineage.push(0, Births { generation, amount_scale: 1.0, births });
+            }
             lineage.genomes(&[id(1, 0)], &Toy, &archipelago()).map(|_| ())
         };
         let parent = Some(id(0, 0));

@@ -10,7 +10,19 @@ pub fn run<P: Problem>(
     problem: &P,
     archipelago: &Archipelago,
     generations: u32,
+    observe: impl FnMut(&Step<P::Gene>),
+) -> Vec<Island<P::Gene>> {
+    run_until(problem, archipelago, generations, observe, |_| false)
+}
+
+/// The same, but the run is over earlier if `is_over` says so: it is asked before every generation, and
+/// sees all islands.
+pub fn run_until<P: Problem>(
+    problem: &P,
+    archipelago: &Archipelago,
+    generations: u32,
     mut observe: impl FnMut(&Step<P::Gene>),
+    mut is_over: impl FnMut(&[Island<P::Gene>]) -> bool,
 ) -> Vec<Island<P::Gene>> {
     let mut sent: BTreeMap<(u32, u32), Outbox<P::Gene>> = BTreeMap::new();
     let mut islands: Vec<Island<P::Gene>> = (0..archipelago.islands)
@@ -21,6 +33,9 @@ pub fn run<P: Problem>(
         })
         .collect();
     for generation in 1..=generations {
+        if is_over(&islands) {
+            break;
+        }
         let mut outboxes = Vec::new();
         islands = islands
             .into_iter()

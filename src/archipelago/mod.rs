@@ -1,6 +1,6 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
-//! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
+//! [`algorithm`] says what searches; [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
 //! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
 //! sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
@@ -9,6 +9,7 @@
 //! Architecture invariant: pure, like [`crate::evolution`]. Whether migrants travel through shared memory,
 //! a file or a variable is not known here.
 
+pub mod algorithm;
 pub mod digest;
 pub mod inbox;
 pub mod island;
@@ -22,6 +23,7 @@ pub mod voyage;
 #[cfg(test)]
 mod tests;
 
+pub use algorithm::Algorithm;
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};

@@ -3,9 +3,9 @@
 use super::progress;
 use super::robustness::Robustness;
 use crate::choice;
-use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales};
-use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
+use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
+use crate::evolution::{self, Evaluation, Outcome, Problem};
 use crate::rng::Stream;
 use crate::simulation::{self, Engine, Measurement, Perturbation, Start, Trajectory, Trial};
 use rand::RngExt;
@@ -88,6 +88,9 @@ impl std::str::FromStr for Task {
         choice::named("task", &Task::ALL, text)
     }
 }
+
+/// The height of a body from which on bodies count as equally high, in metres.
+pub const HEIGHT_MAX_M: f64 = 3.0;
 
 /// The problem of locomotion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -202,6 +205,14 @@ impl evolution::Gene for Gene {
     fn is_valid(&self) -> bool {
         self.0.iter().all(|value| (0.0..1.0).contains(value))
     }
+
+    fn values(&self) -> &[f64] {
+        &self.0
+    }
+
+    fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.0
+    }
 }
 
 impl Problem for Locomotion {
@@ -215,13 +226,25 @@ impl Problem for Locomotion {
         (0..self.genes).map(|_| self.random_gene(rng)).collect()
     }
 
-    fn mutate_gene(&self, gene: &mut Gene, rate: f64, amount: f64, rng: &mut Stream) {
-        for value in &mut gene.0 {
-            if variation::happens(rate, rng) {
-                let change = (2.0 * rng.random::<f64>() - 1.0) * amount;
-                *value = reflect(*value + change);
-            }
+    /// Appends a copy of a limb, with all that it carries, to whom the limb is on: a new gene for each of the old ones,
+    /// as they are but for who their parents are.
+    fn duplicate(&self, genome: &mut Vec<Gene>, genes_max: usize, rng: &mut Stream) {
+        if genome.len() > 1 {
+            let limb = rng.random_range(1..genome.len());
+            genome::duplicate(genome, limb, genes_max);
         }
+    }
+
+    /// How many links its body has, of those that it may have, and how high it stands at rest, of [`HEIGHT_MAX_M`].
+    fn features(&self, genome: &[Gene]) -> [f64; 2] {
+        let expressed = catch_unwind(AssertUnwindSafe(|| self.express(genome)));
+        let Some(creature) = expressed.ok().and_then(Result::ok) else { return [0.0; 2] };
+        let links = creature.morphology.links.len() as f64 / self.links_max.max(1) as f64;
+        [links.min(1.0), (creature.morphology.height_m() / HEIGHT_MAX_M).min(1.0)]
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["links", "height"]
     }
 
     /// The mean absolute difference of the values of genes in the same place; a gene that only one of them has
@@ -265,16 +288,11 @@ fn gene_distance(a: &Gene, b: &Gene) -> f64 {
     a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).sum::<f64>() / PARAMETER_COUNT as f64
 }
 
-/// Brings a value that left the range from 0 to 1 by less than 1 back in, as a mirror at its ends would:
-/// a clamp would pile values up there.
-fn reflect(value: f64) -> f64 {
-    let value = value.abs();
-    if value < 1.0 { value } else { (2.0 - value).clamp(0.0, VALUE_MAX) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::creature::gene::VALUE_MAX;
+    use crate::evolution::Variation;
     use crate::rng::{Purpose, Source};
 
     fn problem() -> Locomotion {
@@ -287,10 +305,11 @@ mod tests {
 
     #[test]
     fn point_mutation_honours_its_rate_and_its_amount() {
+        let variation = Variation { point_rate: 0.2, point_amount: 0.05, ..Variation::default() };
         let mut changed = 0.0;
         for index in 0..1_000 {
             let mut gene = Gene([0.5; PARAMETER_COUNT]);
-            problem().mutate_gene(&mut gene, 0.2, 0.05, &mut stream(index));
+            problem().mutate_gene(&mut gene, &variation, &mut stream(index));
             assert!(gene.0.iter().all(|value| (value - 0.5).abs() <= 0.05));
             changed += gene.0.iter().filter(|&&value| value != 0.5).count() as f64 / 17_000.0;
         }
@@ -323,10 +342,11 @@ mod tests {
 
     #[test]
     fn mutation_never_leaves_the_range() {
+        let variation = Variation { point_rate: 1.0, point_amount: 1.0, ..Variation::default() };
         for (index, start) in [(0, 0.0), (1, VALUE_MAX), (2, 0.5)] {
             let mut gene = Gene([start; PARAMETER_COUNT]);
             for _ in 0..200 {
-                problem().mutate_gene(&mut gene, 1.0, 1.0, &mut stream(index));
+                problem().mutate_gene(&mut gene, &variation, &mut stream(index));
                 assert!(evolution::Gene::is_valid(&gene), "{gene:?}");
             }
         }

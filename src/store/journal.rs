@@ -94,6 +94,7 @@ mod tests {
         let migrant = crate::evolution::Individual {
             id: crate::evolution::Id { island: 0, generation: epoch, index: 0 },
             parents: [None; 2],
+            origin: 0,
             genome: vec![crate::creature::Gene([0.5; 17])],
             fitness: crate::evolution::Fitness::new(1.0),
         };

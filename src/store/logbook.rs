@@ -73,7 +73,7 @@ impl<G: Gene> Logbook<G> {
     /// If the disk is full or gone, or an epoch that is evolved again comes out otherwise.
     pub fn record(&mut self, step: &Step<G>, seconds: f64) -> Result<(), StoreError> {
         step.champion.iter().try_for_each(|champion| self.champions.append(champion))?;
-        self.lineages.append(&Births::of(&step.island))?;
+        self.lineages.append(&step.births)?;
         self.reports.append(&Entry { report: step.report, seconds })?;
         step.outbox.iter().try_for_each(|outbox| self.journal.append(outbox))
     }

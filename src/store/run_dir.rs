@@ -204,7 +204,7 @@ impl Claim {
         Ok(())
     }
 
-    fn sweep(&self) {
+    pub(super) fn sweep(&self) {
         // What a link leads to is somebody else's.
         if is_link(&self.dir.partial()) {
             return;
@@ -232,7 +232,7 @@ fn private() -> DirBuilder {
 }
 
 /// Makes a folder of a run; it may exist, but not as a link.
-fn make(folder: &Path) -> Result<(), StoreError> {
+pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
     private().create(folder).map_err(StoreError::io("make the folder", folder))?;
     if is_link(folder) {
         return Err(StoreError::damaged(

@@ -46,8 +46,11 @@ pub fn messages(
     audience: Audience,
 ) -> Result<(Vec<LogMsg>, BlueprintActivationCommand), ViewError> {
     let mut layout = Layout::default();
-    let panels =
-        Horizontal::new([layout.stages(card), layout.figures(card)]).with_column_shares([3.0, 2.0]);
+    let [left, right] = match card.has_stage {
+        true => [layout.stages(card), layout.figures(card)],
+        false => layout.figures_alone(card),
+    };
+    let panels = Horizontal::new([left, right]).with_column_shares([3.0, 2.0]);
     let blueprint = Blueprint::new(panels)
         .with_auto_layout(false)
         .with_auto_views(false)
@@ -78,6 +81,11 @@ fn companion() -> EyeControls3D {
         .with_position([0.95, -1.85, 0.8])
         .with_look_target([0.05, 0.0, 0.02])
         .with_eye_up([0.0, 0.0, 1.0])
+}
+
+/// A name, and the unit of fitness if it has one.
+fn with_unit(name: &str, card: &RunCard) -> String {
+    if card.unit.is_empty() { name.to_owned() } else { format!("{name} ({})", card.unit) }
 }
 
 /// From the beginning to the end, wherever the film is.
@@ -206,25 +214,46 @@ impl Layout {
     }
 
     fn figures_of_run(&mut self, card: &RunCard, run: ContainerLike) -> ContainerLike {
-        let unit = &card.unit;
-        let best = self.curves(card, format!("Best fitness ({unit})"), "fitness/best");
-        let mean = self.curves(card, format!("Mean fitness ({unit})"), "fitness/mean");
+        let (curves, diversity) = self.growth(card);
+        let (both, words) = (self.islands(card), self.words(run));
+        Vertical::new([curves, diversity, both, words]).with_row_shares([3.0, 2.0, 2.4, 2.2]).into()
+    }
+
+    /// Both sides of a run in which there is nothing to be seen but figures.
+    fn figures_alone(&mut self, card: &RunCard) -> [ContainerLike; 2] {
+        let (curves, diversity) = self.growth(card);
+        let run = TextDocumentView::new("Run").with_origin("run").into();
+        let family = GraphView::new("Family").with_origin("family").into();
+        let (both, words) = (self.islands(card), self.words(run));
+        let left = Vertical::new([curves, diversity]).with_row_shares([3.0, 2.0]);
+        let right = Vertical::new([family, both, words]).with_row_shares([2.4, 2.0, 2.4]);
+        [left.into(), right.into()]
+    }
+
+    /// The best and the mean fitness, and the diversity.
+    fn growth(&mut self, card: &RunCard) -> (ContainerLike, ContainerLike) {
+        let best = self.curves(card, with_unit("Best fitness", card), "fitness/best");
+        let mean = self.curves(card, with_unit("Mean fitness", card), "fitness/mean");
         let diversity =
             self.curves(card, "Diversity (mean distance of genomes, 0–1)".into(), "diversity");
+        (Tabs::new([best, mean]).into(), diversity)
+    }
+
+    /// Who sends to whom, and each population's scores.
+    fn islands(&mut self, card: &RunCard) -> ContainerLike {
         let topology = GraphView::new("Topology").with_origin("topology").into();
         let spread = card.lanes().map(|(island, _)| {
-            let view = BarChartView::new(format!("Spread {island} ({unit})"));
+            let view = BarChartView::new(with_unit(&format!("Spread {island}"), card));
             self.no_legend(view.with_origin(format!("population/{island}")))
         });
         let spread = Tabs::new(spread.collect::<Vec<_>>());
-        let both = Horizontal::new([topology, spread.into()]);
+        Horizontal::new([topology, spread.into()]).into()
+    }
+
+    fn words(&mut self, run: ContainerLike) -> ContainerLike {
         let states = StateTimelineView::new("Island state").with_origin("state").into();
         self.set(&states, "TimeAxis", &whole_film());
-        let words = Tabs::new([self.events(), states, run]);
-        let curves = Tabs::new([best, mean]);
-        Vertical::new([curves.into(), diversity, both.into(), words.into()])
-            .with_row_shares([3.0, 2.0, 2.4, 2.2])
-            .into()
+        Tabs::new([self.events(), states, run]).into()
     }
 
     /// Curves over the whole film, whose legend is left out where it would hide them.

@@ -26,12 +26,9 @@ const FLOOR_M: i32 = 18;
 /// Writes everything that stands still.
 pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
     rec.log_static("run", &TextDocument::from_markdown(card.description_markdown.as_str()))?;
-    for root in ["islands", "race", "line"] {
-        rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    if card.has_stage {
+        stages(rec, card)?;
     }
-    let track = card.track();
-    card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
-    marks(rec, track)?;
     match card.program {
         Program::Race | Program::Line => figures::configure(rec, card),
         Program::Run => {
@@ -40,6 +37,16 @@ pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
             topology(rec, card)
         }
     }
+}
+
+/// The places of all champions.
+fn stages(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
+    for root in ["islands", "race", "line"] {
+        rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    }
+    let track = card.track();
+    card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
+    marks(rec, track)
 }
 
 /// The place of a champion, alone and in the view of all.

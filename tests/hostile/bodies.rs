@@ -146,7 +146,7 @@ pub fn config(data: &[u8]) {
         let _ = archipelago.migration.immigration(generation);
         let _ = archipelago.migration.emigration(generation);
     }
-    let problem = config.problem();
+    let problem = config.locomotion();
     assert!((1..=config.max_genes).contains(&problem.genes) && problem.links_max >= 1);
 }
 

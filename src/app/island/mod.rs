@@ -4,14 +4,15 @@ mod panics;
 mod patience;
 
 use super::Failure;
+use super::catalogue::Visitor;
 use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
 use super::seeds;
+use super::subject::Subject;
 use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
-use crate::creature::Gene;
-use crate::evolution::Problem;
+use crate::problems::Founded;
 use crate::store::{Journal, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
 use panics::Panics;
@@ -27,44 +28,63 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let ear = Ear::to(args.parent)?;
     let dir = RunDir::at(&args.dir);
     let config = Config::of_run(&dir)?;
-    let archipelago = config.archipelago();
-    // Before any thread makes a file: opening changes the umask for a moment.
-    let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads)
-        .build_global()
-        .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let Restored { logbook, island, warnings } =
-        Logbook::open(&dir, &archipelago, args.index, &config.settings())?;
-    for warning in warnings {
-        say(&format!("warning: {warning}"));
+    config.visit(Sailing { args, dir: &dir, config: &config, ear })
+}
+
+/// An island that is to evolve some problem.
+struct Sailing<'a> {
+    args: &'a IslandArgs,
+    dir: &'a RunDir,
+    config: &'a Config,
+    ear: Ear,
+}
+
+impl Visitor for Sailing<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let Self { args, dir, config, ear } = self;
+        let archipelago = config.archipelago();
+        // Before any thread makes a file: opening changes the umask for a moment.
+        let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(args.threads)
+            .build_global()
+            .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
+        let Restored { logbook, island, warnings } =
+            Logbook::open(dir, &archipelago, args.index, &config.settings())?;
+        for warning in warnings {
+            say(&format!("warning: {warning}"));
+        }
+        let problem = seeds::founded(dir, config, problem)?;
+        let saved = island.as_ref().map(|island| island.generation);
+        let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
+        let mut ship = Ship {
+            config,
+            archipelago: &archipelago,
+            problem: &problem.problem,
+            voyage,
+            exchange,
+            logbook,
+            ear,
+            patience: Patience::new(),
+            panics: Panics::of(dir),
+            generation_began: Stopwatch::start(),
+            told: Told::default(),
+            saved,
+            refused: BTreeMap::new(),
+        };
+        ship.catch_up(dir)?;
+        ship.sail()
     }
-    let problem = seeds::founded(&dir, &config)?;
-    let saved = island.as_ref().map(|island| island.generation);
-    let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
-    let mut ship = Ship {
-        config: &config,
-        archipelago: &archipelago,
-        voyage,
-        exchange,
-        logbook,
-        ear,
-        patience: Patience::new(),
-        panics: Panics::of(&dir),
-        generation_began: Stopwatch::start(),
-        told: Told::default(),
-        saved,
-        refused: BTreeMap::new(),
-    };
-    ship.catch_up(&dir)?;
-    ship.sail()
 }
 
 /// An island and what connects it to the world: its neighbours, its files and its launcher.
-struct Ship<'a, P: Problem> {
+struct Ship<'a, P: Subject> {
     config: &'a Config,
     archipelago: &'a Archipelago,
-    voyage: Voyage<'a, P>,
+    problem: &'a P,
+    voyage: Voyage<'a, Founded<P>>,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
     ear: Ear,
@@ -85,7 +105,7 @@ struct Told {
     finished: bool,
 }
 
-impl<P: Problem<Gene = Gene>> Ship<'_, P> {
+impl<P: Subject> Ship<'_, P> {
     /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
     /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
     fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
@@ -137,7 +157,7 @@ impl<P: Problem<Gene = Gene>> Ship<'_, P> {
         let seconds = std::mem::replace(&mut self.generation_began, Stopwatch::start()).seconds();
         self.patience.learn(seconds);
         self.record(step, seconds)?;
-        self.panics.keep(step);
+        self.panics.keep(self.problem, step);
         let Config { checkpoint_interval, generations, .. } = *self.config;
         let generation = step.island.generation;
         match generation.is_multiple_of(checkpoint_interval) || generation == generations {

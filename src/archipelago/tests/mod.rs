@@ -1,5 +1,6 @@
 //! The exchange protocol under thousands of seeded schedules of loss, delay and death, in virtual time.
 
+mod schemes;
 mod sea;
 pub mod toy;
 mod world;

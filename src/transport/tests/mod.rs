@@ -52,7 +52,9 @@ fn archipelago(islands: u32) -> Archipelago {
                 shrink_rate: 0.1,
                 grow_rate: 0.1,
                 genes_max: GENES_MAX,
+                ..Variation::default()
             },
+            ..Strategy::default()
         },
     }
 }
@@ -76,6 +78,7 @@ fn individual(island: u32, epoch: u32, index: u32) -> Individual<TestGene> {
     Individual {
         id,
         parents: [parent, None],
+        origin: 0,
         genome: (0..length as u32).map(gene).collect(),
         fitness: if index == 2 { Fitness::WORST } else { Fitness::new(f64::from(epoch) / 3.0) },
     }
@@ -96,6 +99,7 @@ fn report(island: u32, generation: u32) -> Report {
             mean,
             median,
             diversity: 0.25,
+            phenotype_diversity: 0.125,
             spread: Spread::of(&[1.5, 3.0]),
         },
         effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1] },

@@ -1,0 +1,222 @@
+//! The one place that knows every problem: their names, what a run of each has by default, and which settings mean
+//! nothing to it.
+
+use super::Failure;
+use super::config::{Config, GENES_MAX, SEED_MAX};
+use super::subject::Subject;
+use crate::archipelago::Algorithm;
+use crate::choice;
+use crate::problems::{Benchmark, Bits, Function, Pattern};
+use serde::{Deserialize, Serialize};
+use toml::Table;
+
+/// What can be evolved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum Kind {
+    /// Creatures that move.
+    #[default]
+    Creatures,
+    /// Points that lie low on a function.
+    Function(Function),
+    /// Strings of ones and zeros.
+    Bits(Pattern),
+}
+
+/// What is done with a problem, whichever it is.
+pub trait Visitor {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn visit<P: Subject>(self, problem: P) -> Self::Output;
+}
+
+/// What of a configuration decides its defaults.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Wish {
+    /// The problem; creatures if none is said.
+    pub problem: Option<Kind>,
+    /// Variables or bits; as many as are usual if none are said.
+    pub dimensions: Option<usize>,
+}
+
+/// Settings that mean something to creatures alone.
+const OF_CREATURES: [&str; 12] = [
+    "task",
+    "profile",
+    "engine",
+    "robustness",
+    "robust-by",
+    "max-links",
+    "scales",
+    "genes",
+    "max-genes",
+    "shrink-rate",
+    "grow-rate",
+    "duplicate-rate",
+];
+/// Settings that mean something to functions alone.
+const OF_FUNCTIONS: [&str; 2] = ["instance", "rotated"];
+/// What only some patterns have.
+const OF_BLOCKS: &str = "block";
+/// What a genome has that is of one length.
+const OF_FIXED: &str = "dimensions";
+/// What bits have no use for: they change wholly or not at all.
+const OF_NUMBERS: [&str; 3] = ["mutation", "point-amount", "adaptation"];
+
+impl Kind {
+    /// Every problem.
+    pub fn all() -> Vec<Self> {
+        let functions = Function::ALL.map(Kind::Function);
+        let bits = Pattern::ALL.map(Kind::Bits);
+        [Kind::Creatures].into_iter().chain(functions).chain(bits).collect()
+    }
+
+    /// The names of the settings that mean nothing to it.
+    pub fn useless(self) -> Vec<&'static str> {
+        match self {
+            Kind::Creatures => [&OF_FUNCTIONS[..], &[OF_BLOCKS, OF_FIXED]].concat(),
+            Kind::Function(_) => [&OF_CREATURES[..], &[OF_BLOCKS]].concat(),
+            Kind::Bits(Pattern::OneMax) => {
+                [&OF_CREATURES[..], &OF_FUNCTIONS, &OF_NUMBERS, &[OF_BLOCKS]].concat()
+            }
+            Kind::Bits(_) => [&OF_CREATURES[..], &OF_FUNCTIONS, &OF_NUMBERS].concat(),
+        }
+    }
+
+    fn usual_dimensions(self) -> usize {
+        match self {
+            Kind::Bits(pattern) => pattern.usual_bits(),
+            Kind::Creatures | Kind::Function(_) => 30,
+        }
+    }
+}
+
+impl Config {
+    /// What a run has where nothing else is said. A genome of one length neither shrinks nor grows, one of its values
+    /// changes at a time, and evaluating it takes microseconds: there are more generations, and a state is saved less
+    /// often than evolved.
+    pub fn default_for(wish: Wish) -> Self {
+        let problem = wish.problem.unwrap_or_default();
+        let dimensions = wish.dimensions.unwrap_or(problem.usual_dimensions());
+        let fixed = Self {
+            problem,
+            dimensions,
+            genes: dimensions,
+            max_genes: dimensions,
+            population: 50,
+            crossover_rate: 0.9,
+            point_rate: 1.0 / dimensions.max(1) as f64,
+            shrink_rate: 0.0,
+            grow_rate: 0.0,
+            checkpoint_interval: 50,
+            ..Self::default()
+        };
+        match problem {
+            Kind::Creatures => Self::default(),
+            Kind::Function(_) => Self { generations: 1_000, migration_interval: 10, ..fixed },
+            Kind::Bits(pattern) => Self { generations: 200, block: pattern.usual_block(), ..fixed },
+        }
+    }
+
+    /// Makes the problem that is solved, and hands it to a visitor.
+    pub fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
+        let Self { dimensions, instance, rotated, block, .. } = *self;
+        match self.problem {
+            Kind::Creatures => visitor.visit(self.locomotion()),
+            Kind::Function(function) => {
+                visitor.visit(Benchmark::new(function, dimensions, instance, rotated))
+            }
+            Kind::Bits(pattern) => visitor.visit(Bits { pattern, bits: dimensions, block }),
+        }
+    }
+
+    /// Makes sure that creatures are evolved, for a command that is about bodies.
+    ///
+    /// # Errors
+    /// If something else is.
+    pub(super) fn require_creatures(&self, command: &str) -> Result<(), Failure> {
+        match self.problem {
+            Kind::Creatures => Ok(()),
+            other => Err(Failure::usage(format!(
+                "{command} shows creatures, and this is a run of {other}, whose genomes have no bodies"
+            ))),
+        }
+    }
+
+    /// Makes sure that the problem can have so many variables or bits.
+    pub(super) fn check_dimensions(&self) -> Result<(), Failure> {
+        let Self { problem, dimensions, instance, block, .. } = *self;
+        let least = if problem == Kind::Function(Function::Rosenbrock) { 2 } else { 1 };
+        if !(least..=GENES_MAX).contains(&dimensions) {
+            return Err(Failure::usage(format!(
+                "dimensions must be from {least} to {GENES_MAX}, not {dimensions}"
+            )));
+        }
+        if instance > SEED_MAX {
+            return Err(Failure::usage(format!("instance must be at most {SEED_MAX}")));
+        }
+        if self.algorithm == Algorithm::CmaEs && matches!(problem, Kind::Bits(_)) {
+            return Err(Failure::usage(format!(
+                "cma-es learns from numbers, and {problem} has bits"
+            )));
+        }
+        let is_whole = (1..=dimensions).contains(&block) && dimensions.is_multiple_of(block);
+        match problem {
+            Kind::Bits(_) if !is_whole => Err(Failure::usage(format!(
+                "{dimensions} bits cannot be cut into blocks of {block}: change --dimensions or --block"
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes sure that nothing is said that means nothing to the problem; the ranges must have been checked.
+    pub(super) fn check_use(&self) -> Result<(), Failure> {
+        let Self { problem, dimensions, .. } = *self;
+        // What is of no use to creatures needs no problem that it is of use to.
+        let wish = Wish { problem: Some(problem), dimensions: Some(dimensions) };
+        let table = |config: &Self| Table::try_from(config).map_err(|error| error.to_string());
+        let tables = table(self).and_then(|said| Ok((said, table(&Self::default_for(wish))?)));
+        let (said, usual) = tables.map_err(Failure::usage)?;
+        let differs = |name: &&str| said.get(*name) != usual.get(*name);
+        match problem.useless().into_iter().find(differs) {
+            None => Ok(()),
+            Some(name) => Err(Failure::usage(format!(
+                "{name} means nothing to {problem}: leave it out, or choose another --problem"
+            ))),
+        }
+    }
+}
+
+impl std::fmt::Display for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Kind::Creatures => f.write_str("creatures"),
+            Kind::Function(function) => function.fmt(f),
+            Kind::Bits(pattern) => pattern.fmt(f),
+        }
+    }
+}
+
+impl std::str::FromStr for Kind {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("problem", &Self::all(), text)
+    }
+}
+
+impl TryFrom<String> for Kind {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Kind> for String {
+    fn from(kind: Kind) -> String {
+        kind.to_string()
+    }
+}
