@@ -33,6 +33,8 @@ pub enum Purpose {
     Sampling = 4,
     /// Where a benchmark has its optimum: drawn once, for all runs alike.
     Instance = 16,
+    /// What differs in a trial: drawn for a trial's index alone, for all runs alike.
+    Perturbation = 20,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

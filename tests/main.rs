@@ -23,6 +23,7 @@ mod reel;
 #[cfg(feature = "view")]
 mod replay;
 mod resume;
+mod robustness;
 mod run;
 mod support;
 mod survival;

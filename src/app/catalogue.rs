@@ -43,10 +43,12 @@ pub struct Wish {
 }
 
 /// Settings that mean something to creatures alone.
-const OF_CREATURES: [&str; 10] = [
+const OF_CREATURES: [&str; 12] = [
     "task",
     "profile",
     "engine",
+    "robustness",
+    "robust-by",
     "max-links",
     "scales",
     "genes",

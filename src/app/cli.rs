@@ -8,7 +8,7 @@ use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
 use crate::choice;
 use crate::creature::Profile;
-use crate::problems::Task;
+use crate::problems::{RobustBy, Task};
 use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
@@ -264,6 +264,12 @@ pub struct ReplayArgs {
     /// fast) [default: rapier, or as in the run]
     #[arg(long)]
     pub engine: Option<Engine>,
+    /// Score by so many perturbed trials; the film is of one as it is [default: 0, or as in the run]
+    #[arg(long, value_name = "K")]
+    pub robustness: Option<u32>,
+    /// What the scores of these trials come to: worst or mean [default: worst, or as in the run]
+    #[arg(long, value_name = "HOW")]
+    pub robust_by: Option<RobustBy>,
     /// No body gets more links than this, but for profile coursework [default: 32, or as in the run]
     #[arg(long, value_name = "L")]
     pub max_links: Option<usize>,

@@ -12,7 +12,7 @@ use crate::creature::{Profile, Scales};
 use crate::evolution::{
     Adaptation, Crossover, Mutation, Reproduction, Selection, Strategy, Survival, Variation,
 };
-use crate::problems::{Locomotion, Task};
+use crate::problems::{Locomotion, RobustBy, Robustness, Task};
 use crate::simulation::Engine;
 use crate::transport::Domain;
 use serde::{Deserialize, Serialize};
@@ -67,6 +67,10 @@ pub struct Config {
     pub profile: Profile,
     /// What moves the bodies.
     pub engine: Engine,
+    /// Perturbed trials of a genome; 0 for one that is not perturbed.
+    pub robustness: u32,
+    /// What their scores come to.
+    pub robust_by: RobustBy,
     /// Genes of a random genome.
     pub genes: usize,
     /// No genome gets longer than this, in genes.
@@ -154,6 +158,8 @@ impl Default for Config {
             task: Task::Walk,
             profile: Profile::Native,
             engine: Engine::Rapier,
+            robustness: 0,
+            robust_by: RobustBy::Worst,
             genes: 4,
             max_genes: variation.genes_max,
             max_links: 32,
@@ -215,6 +221,7 @@ impl Config {
         within("max-genes", self.max_genes as f64, 1.0, GENES_MAX as f64)?;
         within("genes", self.genes as f64, 1.0, self.max_genes as f64)?;
         within("max-links", self.max_links as f64, 1.0, LINKS_MAX as f64)?;
+        within("robustness", f64::from(self.robustness), 0.0, f64::from(Robustness::TRIALS_MAX))?;
         within("elites", self.elites as f64, 0.0, self.population as f64 - 1.0)?;
         within("crossover-rate", self.crossover_rate, 0.0, 1.0)?;
         within("point-rate", self.point_rate, 0.0, 1.0)?;
@@ -330,6 +337,7 @@ impl Config {
             genes: self.genes,
             links_max: self.max_links,
             engine: self.engine,
+            robustness: Robustness { trials: self.robustness, by: self.robust_by },
         }
     }
 }
@@ -361,6 +369,7 @@ mod tests {
             Config { point_rate: f64::NAN, ..sound.clone() },
             Config { migration_interval: 0, ..sound.clone() },
             Config { threads: Some(0), ..sound.clone() },
+            Config { robustness: 101, ..sound.clone() },
             Config { clip_every: Some(0), ..sound.clone() },
             Config { threads: Some(usize::MAX), ..sound.clone() },
             Config { seed: Some(u64::MAX), ..sound.clone() },

@@ -98,7 +98,7 @@ fn judge<P: Subject>(
     let a_second = |count: f64| count / wall_seconds.max(1e-9);
     let is_walker = config.problem == Kind::Creatures;
     let whole = evaluations.iter().filter(|e| e.fitness.finite().is_some()).count();
-    let steps = whole as f64 * f64::from(args.trial.task.trial().steps());
+    let steps = whole as f64 * config.locomotion().steps() as f64;
     let scores = Scores {
         problem: config.problem,
         task: is_walker.then(|| args.trial.task.to_string()),
@@ -127,13 +127,15 @@ fn judge<P: Subject>(
 impl EvaluateArgs {
     /// The configuration of a run whose genomes these may be.
     fn config(&self) -> Result<Config, Failure> {
-        let TrialArgs { task, read, engine, max_links } = &self.trial;
+        let TrialArgs { task, read, engine, robustness, robust_by, max_links } = &self.trial;
         let usual = Config::default_for(self.problem.wish());
         let config = Config {
             task: *task,
             profile: read.profile,
             scales: read.changes.scales(),
             engine: *engine,
+            robustness: *robustness,
+            robust_by: *robust_by,
             max_links: *max_links,
             ..self.problem.over(usual)
         };

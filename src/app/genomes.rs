@@ -11,7 +11,7 @@ use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{Creature, Gene, Profile, Reading, Scales};
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
-use crate::problems::Locomotion;
+use crate::problems::{Locomotion, RobustBy, Robustness};
 use crate::store::file;
 use std::fmt::Display;
 use std::path::Path;
@@ -175,6 +175,16 @@ pub fn links_max(wish: usize) -> Result<usize, Failure> {
     fine.then_some(wish).ok_or_else(wrong)
 }
 
+/// Perturbed trials, if there may be so many.
+///
+/// # Errors
+/// One sentence that says what to change.
+pub fn robustness(trials: u32, by: RobustBy) -> Result<Robustness, Failure> {
+    let most = Robustness::TRIALS_MAX;
+    let wrong = || Failure::usage(format!("robustness must be from 0 to {most}, not {trials}"));
+    (trials <= most).then_some(Robustness { trials, by }).ok_or_else(wrong)
+}
+
 impl ReadArgs {
     /// What the numbers of a gene mean, if that makes sense.
     ///
@@ -198,12 +208,14 @@ impl TrialArgs {
     /// The problem that a genome is tried with.
     ///
     /// # Errors
-    /// If more links are asked for than may be, or scales that the profile has not.
+    /// If more links or trials are asked for than may be, or scales that the profile has not.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, max_links } = self;
+        let Self { task, read, engine, robustness: trials, robust_by, max_links } = self;
+        let robustness = robustness(*trials, *robust_by)?;
         let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
         let Reading { profile, scales } = reading;
         let (task, engine) = (*task, *engine);
-        Ok(Locomotion { profile, scales, task, engine, links_max, ..Locomotion::default() })
+        let usual = Locomotion::default();
+        Ok(Locomotion { profile, scales, task, engine, links_max, robustness, ..usual })
     }
 }

@@ -5,7 +5,7 @@ use super::problem_args::ProblemArgs;
 use crate::archipelago::Algorithm;
 use crate::creature::Profile;
 use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
-use crate::problems::Task;
+use crate::problems::{RobustBy, Task};
 use crate::simulation::Engine;
 use clap::Args;
 
@@ -41,6 +41,13 @@ pub struct SettingArgs {
     /// fast) [default: rapier]
     #[arg(long)]
     pub engine: Option<Engine>,
+    /// Score a genome by this many trials with other friction, motor strength, first direction, a push and other steps,
+    /// so that it walks elsewhere, too; 0 for one trial as it is [default: 0]
+    #[arg(long, value_name = "K")]
+    pub robustness: Option<u32>,
+    /// What the scores of these trials come to: worst or mean [default: worst]
+    #[arg(long, value_name = "HOW")]
+    pub robust_by: Option<RobustBy>,
     /// Genes of a random genome [default: 4]
     #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
     pub genes: Option<usize>,
@@ -128,6 +135,8 @@ impl SettingArgs {
             task: self.task.unwrap_or(config.task),
             profile: self.profile.unwrap_or(config.profile),
             engine: self.engine.unwrap_or(config.engine),
+            robustness: self.robustness.unwrap_or(config.robustness),
+            robust_by: self.robust_by.unwrap_or(config.robust_by),
             genes: self.genes.unwrap_or(config.genes),
             max_genes: self.max_genes.unwrap_or(config.max_genes),
             max_links: self.max_links.unwrap_or(config.max_links),
@@ -173,7 +182,7 @@ mod tests {
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
             --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone --algorithm random --survival crowding \
             --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
-            --dimensions 9 --instance 9 --rotated --block 9";
+            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by mean";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

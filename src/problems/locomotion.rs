@@ -1,12 +1,13 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
 use super::progress;
+use super::robustness::Robustness;
 use crate::choice;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
 use crate::evolution::{self, Evaluation, Outcome, Problem};
 use crate::rng::Stream;
-use crate::simulation::{self, Engine, Measurement, Start, Trajectory, Trial};
+use crate::simulation::{self, Engine, Measurement, Perturbation, Start, Trajectory, Trial};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -39,6 +40,7 @@ impl Task {
                 // gave no more than 960 did (rank correlation 0.78 both), 120 more (0.72), and at 120 rapier gave
                 // bodies eight times as much momentum out of nothing, half of what the ledger refuses.
                 steps_per_s: 240,
+                perturbation: Perturbation::NONE,
                 gravity_m_s2: 9.81,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
                 start: Start::LeaningAt(0.1),
@@ -48,6 +50,7 @@ impl Task {
             },
             Task::Course => Trial {
                 steps_per_s: 240,
+                perturbation: Perturbation::NONE,
                 gravity_m_s2: 10.0,
                 start: Start::RootAt(2.5),
                 settle_s: 0.0,
@@ -104,6 +107,8 @@ pub struct Locomotion {
     pub links_max: usize,
     /// What moves the bodies.
     pub engine: Engine,
+    /// How often they are tried.
+    pub robustness: Robustness,
 }
 
 impl Default for Locomotion {
@@ -121,6 +126,7 @@ impl Locomotion {
         genes: 4,
         links_max: 32,
         engine: Engine::Rapier,
+        robustness: Robustness::NONE,
     };
 
     /// How genes are read.
@@ -141,7 +147,8 @@ impl Locomotion {
         creature::express(genome, self.reading(), self.links_max)
     }
 
-    /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives.
+    /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives. The film is of a
+    /// trial that is not perturbed.
     ///
     /// # Errors
     /// If the genome cannot be expressed.
@@ -149,13 +156,37 @@ impl Locomotion {
         Ok(self.film_body(&self.express(genome)?))
     }
 
-    /// Evaluates a body and films it.
+    /// Evaluates a body and films it, as it is with a genome.
     pub fn film_body(&self, creature: &Creature) -> (Evaluation, Trajectory) {
-        let (result, trajectory) = simulation::film(creature, &self.task.trial(), self.engine);
-        (self.evaluation(result), trajectory)
+        self.film_trial(creature, &self.task.trial())
     }
 
-    fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+    /// Evaluates a body in another trial than the task's, or in its perturbations, and films it.
+    pub fn film_trial(&self, creature: &Creature, trial: &Trial) -> (Evaluation, Trajectory) {
+        let (result, trajectory) = simulation::film(creature, trial, self.engine);
+        let result = match self.robustness.is_wanted() {
+            true => self.score(creature, trial),
+            false => result.map(|measured| self.task.score(&measured)),
+        };
+        (evaluation(result), trajectory)
+    }
+
+    /// Simulation steps of a genome's evaluation, of trials that run to their end; of settling, which lasts as long as
+    /// it takes, one round.
+    pub fn steps(&self) -> u64 {
+        let trials = self.robustness.trials(self.task.trial());
+        trials.map(|trial| u64::from(trial.steps())).sum()
+    }
+
+    fn score(&self, creature: &Creature, trial: &Trial) -> Result<f64, Outcome> {
+        let score = |trial: Trial| {
+            let measured = simulation::simulate(creature, &trial, self.engine)?;
+            Ok(self.task.score(&measured))
+        };
+        self.robustness.score(self.robustness.trials(*trial).map(score))
+    }
+
+    fn try_out(&self, genome: &[Gene]) -> Result<f64, Outcome> {
         let mut values = genome.iter().flat_map(|gene| gene.0);
         if !values.all(f64::is_finite) {
             return Err(Outcome::NotFinite);
@@ -164,14 +195,7 @@ impl Locomotion {
             return Err(Outcome::TooLarge);
         }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        simulation::simulate(&creature, &self.task.trial(), self.engine)
-    }
-
-    fn evaluation(&self, result: Result<Measurement, Outcome>) -> Evaluation {
-        match result {
-            Ok(measured) => Evaluation::scored(self.task.score(&measured)),
-            Err(outcome) => Evaluation::failed(outcome),
-        }
+        self.score(&creature, &self.task.trial())
     }
 }
 
@@ -236,24 +260,28 @@ impl Problem for Locomotion {
 
     fn evaluate(&self, genome: &[Gene]) -> Evaluation {
         let tried = catch_unwind(AssertUnwindSafe(|| self.try_out(genome)));
-        self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+        evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
     }
 
     fn confirm(&self, genome: &[Gene]) -> Option<Evaluation> {
         self.judge().map(|judge| judge.evaluate(genome))
     }
 
-    /// Links times steps, of a trial that runs to its end; what cannot be expressed costs nothing.
+    /// Links times steps, of trials that run to their end; what cannot be expressed costs nothing.
     fn cost(&self, genome: &[Gene]) -> u64 {
         // Whatever evaluating a genome contains must not come out here.
         let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
-        links as u64 * u64::from(self.task.trial().steps())
+        links as u64 * self.steps()
     }
 
     fn unit(&self) -> &'static str {
         "m"
     }
+}
+
+fn evaluation(result: Result<f64, Outcome>) -> Evaluation {
+    result.map_or_else(Evaluation::failed, Evaluation::scored)
 }
 
 fn gene_distance(a: &Gene, b: &Gene) -> f64 {

@@ -1,8 +1,8 @@
 //! What can be evolved.
 //!
-//! [`locomotion`] evolves creatures that move, and [`progress`] says how far one got; [`benchmark`] evolves points that
-//! lie low on one of the [`functions`], and [`bits`] strings of ones and zeros, both of a [`fixed`] length; [`founded`]
-//! begins with given genomes.
+//! [`locomotion`] evolves creatures that move, [`progress`] says how far one got, and [`robustness`] what several trials
+//! come to; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones and
+//! zeros, both of a [`fixed`] length; [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
 //!
@@ -73,9 +73,11 @@ pub mod founded;
 pub mod functions;
 pub mod locomotion;
 pub mod progress;
+pub mod robustness;
 
 pub use benchmark::{Benchmark, Real};
 pub use bits::{Bit, Bits, Pattern};
 pub use founded::Founded;
 pub use functions::Function;
 pub use locomotion::{Locomotion, Task};
+pub use robustness::{RobustBy, Robustness};

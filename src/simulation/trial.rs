@@ -1,6 +1,7 @@
 //! How a body is tried, and the constants of the world that it is tried in.
 
 use super::TRACK_SAMPLE_S;
+use super::perturbation::Perturbation;
 use std::f64::consts::TAU;
 
 /// How a body is tried.
@@ -8,6 +9,8 @@ use std::f64::consts::TAU;
 pub struct Trial {
     /// Steps a second.
     pub steps_per_s: u32,
+    /// What differs from the usual.
+    pub perturbation: Perturbation,
     /// Acceleration of gravity, downwards, in m/s².
     pub gravity_m_s2: f64,
     /// Where the body begins.
@@ -39,7 +42,7 @@ pub const LEAN_RAD: f64 = TAU / 72.0;
 /// Friction of the ground and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
 
-/// The coefficient of friction between the ground and a link.
+/// The usual coefficient of friction between the ground and a link.
 pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
@@ -53,6 +56,11 @@ impl Trial {
         self.steps_in_exactly(self.settle_s) + self.steps_in_exactly(self.scored_s)
     }
 
+    /// The coefficient of friction between the ground and a link.
+    pub fn grip(&self) -> f64 {
+        GRIP * self.perturbation.friction
+    }
+
     /// The nearest number of steps to a period, at least 1.
     pub(super) fn steps_in(&self, period_s: f64) -> u32 {
         self.steps_in_exactly(period_s).max(1)
@@ -60,7 +68,12 @@ impl Trial {
 
     /// Positions on the track after the first.
     pub(super) fn samples(&self) -> usize {
-        (self.steps_in_exactly(self.scored_s) / self.steps_in(TRACK_SAMPLE_S)) as usize
+        (self.steps_in_exactly(self.scored_s) / self.sample_steps()) as usize
+    }
+
+    /// Steps from one position on the track to the next.
+    pub(super) fn sample_steps(&self) -> u32 {
+        self.steps_in(TRACK_SAMPLE_S)
     }
 
     pub(super) fn steps_in_exactly(&self, period_s: f64) -> u32 {

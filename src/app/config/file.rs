@@ -113,6 +113,11 @@ impl Config {
         if self.problem == Kind::Creatures {
             settings.remove("problem");
         }
+        // They know one trial alone, and what several come to decides nothing there.
+        if self.robustness == 0 {
+            settings.remove("robustness");
+            settings.remove("robust-by");
+        }
         settings.insert("version".to_owned(), version.into());
         settings.to_string()
     }

@@ -127,7 +127,7 @@ impl FeatherstoneWorld {
             touches: Vec::with_capacity(model.solids.len() * POINTS_PER_SOLID),
             factor: Factor::new(&model),
             whitened: Whitened { root: [0.0; 6], hinges: vec![0.0; links] },
-            solver: Solver::new(links, model.solids.len() * POINTS_PER_SOLID),
+            solver: Solver::new(links, model.solids.len() * POINTS_PER_SOLID, trial.grip()),
             model,
         }
     }
@@ -313,6 +313,16 @@ impl World for FeatherstoneWorld {
         self.swings.fill(Swing::default());
         self.midway.clone_from(&self.configuration);
         self.midway.place(&self.model, &mut self.places);
+    }
+
+    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+        let push = Spatial::new(Vector3::zeros(), velocity_m_s);
+        self.midway.position_m += velocity_m_s * (0.5 * self.step_s);
+        let links = self.velocities.iter_mut().zip(&mut self.momenta).zip(&self.places);
+        for ((velocity, momentum), place) in links {
+            *velocity += push;
+            *momentum += place.inertia.times(&push);
+        }
     }
 
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {

@@ -1,5 +1,6 @@
 //! The stepper against the textbook: identities that hold between its algorithms and others for the same thing.
 
+use super::super::perturbation::Perturbation;
 use super::super::trial::Start;
 use super::*;
 use crate::creature::gene::PARAMETER_COUNT;
@@ -10,6 +11,7 @@ use rand_chacha::ChaCha8Rng;
 
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
+    perturbation: Perturbation::NONE,
     gravity_m_s2: 9.81,
     start: Start::LowestAt(0.1),
     settle_s: 0.0,

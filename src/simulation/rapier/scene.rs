@@ -27,7 +27,9 @@ impl Scene {
             ..IntegrationParameters::default()
         };
         let ground = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));
-        world.insert_collider(Self::surface(ground, GROUND_GROUP, CREATURE_GROUP), None);
+        let friction = FRICTION * trial.perturbation.friction;
+        let ground = Self::surface(ground, GROUND_GROUP, CREATURE_GROUP).friction(friction as f32);
+        world.insert_collider(ground, None);
         Self { world }
     }
 

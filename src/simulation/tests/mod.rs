@@ -11,8 +11,10 @@ mod hinge;
 mod lab;
 mod ledger;
 mod pendulum;
+mod perturbed;
 mod sliding;
 
+use super::perturbation::Perturbation;
 use super::trial::{Start, Trial};
 
 /// Acceleration of gravity in these tests, in m/s².
@@ -21,6 +23,7 @@ const GRAVITY_M_S2: f64 = 10.0;
 /// A body that stands on the ground. The tests step by themselves, so that its times mean nothing.
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
+    perturbation: Perturbation::NONE,
     gravity_m_s2: GRAVITY_M_S2,
     start: Start::LowestAt(0.0),
     settle_s: 0.0,
