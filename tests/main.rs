@@ -13,6 +13,8 @@ mod forger;
 mod format;
 mod hostile;
 mod imports;
+#[cfg(feature = "view")]
+mod onlooker;
 mod physics;
 #[cfg(feature = "view")]
 mod recording;
@@ -26,3 +28,5 @@ mod support;
 mod survival;
 mod tidy;
 mod verify;
+#[cfg(feature = "view")]
+mod watching;
