@@ -14,6 +14,8 @@ mod forger;
 mod format;
 mod hostile;
 mod imports;
+#[cfg(feature = "view")]
+mod onlooker;
 mod physics;
 mod problems;
 #[cfg(feature = "view")]
@@ -29,3 +31,5 @@ mod support;
 mod survival;
 mod tidy;
 mod verify;
+#[cfg(feature = "view")]
+mod watching;

@@ -190,6 +190,7 @@ impl<P: Subject> Cinema<P> {
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
         let score = pedigree::standing(&self.problem, &champion);
+        let short = self.problem.short(champion.individual.fitness);
         let Champion { generation, individual, .. } = champion;
         let Some(shot) = self.problem.shoot(&individual.genome) else { return Ok(()) };
         let Shot { morphology, controller, evaluation, trajectory } = shot;
@@ -208,7 +209,7 @@ impl<P: Subject> Cinema<P> {
             hue: island,
             generation,
             label: format!("gen {generation} · {score} · {origin}"),
-            short_label: format!("{island} · {score}"),
+            short_label: format!("{island} · {short}"),
             morphology,
             controller,
             trajectory,
