@@ -29,6 +29,12 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// The individuals that an island sends.
+    Emigration = 8,
+    /// The residents that immigrants replace.
+    Immigration = 9,
+    /// Who sends to whom, which is not drawn on any island.
+    Topology = 10,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

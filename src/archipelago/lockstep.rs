@@ -1,6 +1,7 @@
 //! A whole archipelago in one process: the reference that the processes must equal to the last bit.
 
 use super::island::{self, Island, Step};
+use super::topology::Graph;
 use super::{Archipelago, Outbox};
 use crate::evolution::Problem;
 use std::collections::BTreeMap;
@@ -20,12 +21,13 @@ pub fn run<P: Problem>(
             step.island
         })
         .collect();
+    let graph = archipelago.graph();
     for generation in 1..=generations {
         let mut outboxes = Vec::new();
         islands = islands
             .into_iter()
             .map(|island| {
-                let immigrants = immigrants(&sent, archipelago, island.index, generation);
+                let immigrants = immigrants(&sent, archipelago, &graph, island.index, generation);
                 let step = island::step(island, &immigrants, problem, archipelago);
                 observe(&step);
                 outboxes.extend(step.outbox);
@@ -40,10 +42,11 @@ pub fn run<P: Problem>(
 fn immigrants<G: Clone>(
     sent: &BTreeMap<(u32, u32), Outbox<G>>,
     archipelago: &Archipelago,
+    graph: &Graph,
     island: u32,
     generation: u32,
 ) -> Vec<Outbox<G>> {
     let Some(epoch) = archipelago.migration.immigration(generation) else { return Vec::new() };
-    let sources = archipelago.in_neighbours(island);
+    let sources = graph.in_neighbours(island);
     sources.iter().filter_map(|&source| sent.get(&(epoch, source)).cloned()).collect()
 }

@@ -28,7 +28,7 @@ pub use island::{Champion, Island, Report, Step};
 pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
 pub use soundness::Misfit;
-pub use topology::Topology;
+pub use topology::{Graph, Topology};
 pub use voyage::{Deed, Voyage};
 
 use crate::evolution::Strategy;
@@ -56,13 +56,18 @@ impl Archipelago {
         Source { seed: self.seed, island }
     }
 
+    /// Who sends to whom. It takes time to make: who asks for many islands keeps it.
+    pub fn graph(&self) -> Graph {
+        self.topology.graph(self.islands, self.seed)
+    }
+
     /// Whom `island` receives from.
     pub fn in_neighbours(&self, island: u32) -> Vec<u32> {
-        self.topology.in_neighbours(island, self.islands)
+        self.graph().in_neighbours(island).to_vec()
     }
 
     /// Whom `island` sends to.
     pub fn out_neighbours(&self, island: u32) -> Vec<u32> {
-        self.topology.out_neighbours(island, self.islands)
+        self.graph().out_neighbours(island).to_vec()
     }
 }

@@ -4,8 +4,8 @@
 use super::limits::Limits;
 use super::wire::{BatchHeader, ReportHeader, ResendRequest, WireGene};
 use super::{Domain, TransportError};
-use crate::archipelago::Archipelago;
 use crate::archipelago::migration::MIGRANTS_MAX;
+use crate::archipelago::{Archipelago, Graph};
 use crate::evolution::Gene;
 use iceoryx2::prelude::{NodeBuilder, ServiceName, SignalHandlingMode};
 use iceoryx2::service::builder::{event, publish_subscribe};
@@ -41,7 +41,8 @@ const REPORT_READERS: usize = 2;
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub limits: Limits,
-    archipelago: Archipelago,
+    islands: u32,
+    graph: Graph,
     /// Outboxes that a late opener still gets.
     pub history: usize,
 }
@@ -53,12 +54,13 @@ impl Plan {
         if migrants > MIGRANTS_MAX {
             return Err(TransportError::TooManyMigrants { migrants, max: MIGRANTS_MAX });
         }
-        // Round the ring, a sender can be this many epochs ahead of its reader.
-        let others = archipelago.islands.saturating_sub(1) as usize;
-        let ahead = others.saturating_mul(1 + archipelago.migration.lag as usize);
+        let (graph, islands) = (archipelago.graph(), archipelago.islands);
+        // A sender waits for whom its reader waits for: so it can be this many epochs ahead of its reader.
+        let steps = graph.longest_way_back().unwrap_or(islands) as usize;
+        let ahead = steps.saturating_mul(1 + archipelago.migration.lag as usize);
         let history = ahead.saturating_add(2).min(HISTORY_MAX);
         let limits = Limits::of(domain.run_id(), archipelago);
-        Ok(Self { limits, archipelago: *archipelago, history })
+        Ok(Self { limits, islands, graph, history })
     }
 
     /// The most genes in one outbox; at least one, since a slice of none cannot be reserved.
@@ -90,7 +92,7 @@ impl Plan {
                 outbox.saturating_mul(outboxes).saturating_add(report.saturating_mul(reports));
             samples.saturating_add(ports * PORT).saturating_mul(WITH_SUCCESSOR) as u64
         };
-        (0..self.archipelago.islands).map(island).fold(0, u64::saturating_add)
+        (0..self.islands).map(island).fold(0, u64::saturating_add)
     }
 
     /// An island's outboxes. Nothing is pushed out of a full buffer, or epochs would be lost in the middle:
@@ -169,7 +171,7 @@ impl Plan {
     // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned
     // up.
     fn nodes(&self) -> usize {
-        self.archipelago.islands as usize + 6
+        self.islands as usize + 6
     }
 
     fn outbox_readers(&self, island: u32) -> usize {
@@ -177,11 +179,11 @@ impl Plan {
     }
 
     fn out_degree(&self, island: u32) -> usize {
-        self.archipelago.out_neighbours(island).len()
+        self.graph.out_neighbours(island).len()
     }
 
     fn in_degree(&self, island: u32) -> usize {
-        self.archipelago.in_neighbours(island).len()
+        self.graph.in_neighbours(island).len()
     }
 }
 

@@ -62,8 +62,8 @@ impl Cinema {
         let ancestry = Ancestry::new(herald, islands, recorder.pace());
         let unfilmed = (0..islands).map(|_| None).collect();
         let reigns_since = vec![0; islands as usize];
-        let archipelago = config.archipelago();
-        let sources = (0..islands).map(|island| archipelago.in_neighbours(island)).collect();
+        let graph = config.archipelago().graph();
+        let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
         let has_shown = false;
         Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
     }
@@ -235,10 +235,9 @@ impl Cinema {
 }
 
 fn run_card(config: &Config, clip_every: Option<u32>) -> RunCard {
-    let archipelago = config.archipelago();
-    let edges = (0..config.islands).flat_map(|island| {
-        archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
-    });
+    let graph = config.archipelago().graph();
+    let edges = (0..config.islands)
+        .flat_map(|island| graph.out_neighbours(island).iter().map(move |&to| (island, to)));
     let trial = config.task.trial();
     let clip_every = clip_every.or(config.clip_every);
     RunCard {

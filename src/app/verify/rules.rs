@@ -4,7 +4,7 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
+use crate::archipelago::{Archipelago, Birth, Births, Champion, Graph, Island, Outbox};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
@@ -19,6 +19,7 @@ pub struct Terms<'a> {
     /// Whether it has come to its end: then its logs are complete.
     pub finished: bool,
     archipelago: Archipelago,
+    graph: Graph,
     settings: String,
 }
 
@@ -26,7 +27,8 @@ impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
     pub fn new(config: &'a Config, finished: bool) -> Self {
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
-        Self { config, finished, archipelago, settings }
+        let graph = archipelago.graph();
+        Self { config, finished, archipelago, graph, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -99,7 +101,7 @@ impl<'a> Terms<'a> {
             return wrong("counts evaluations that cannot have been");
         }
         let arrive = self.archipelago.migration.immigration(generation).is_some();
-        let senders = self.archipelago.in_neighbours(island).len();
+        let senders = self.graph.in_neighbours(island).len();
         let immigrants = if arrive { senders * self.config.migrants } else { 0 };
         if report.immigrants as usize != immigrants {
             return wrong("counts immigrants that cannot have been");
