@@ -1,6 +1,7 @@
 //! The flags that say what evolves, and how.
 
 use super::config::Config;
+use crate::archipelago::{Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::Profile;
 use crate::evolution::Selection;
 use crate::problems::Task;
@@ -64,6 +65,10 @@ pub struct SettingArgs {
     /// Probability of an offspring to gain a gene [default: 0.1]
     #[arg(long, value_name = "0..1", help_heading = "Genetic algorithm")]
     pub grow_rate: Option<f64>,
+    /// Who sends migrants to whom: ring, bidirectional-ring, full, torus, star, hypercube, random-regular:DEGREE
+    /// or none [default: ring]
+    #[arg(long, value_name = "GRAPH", help_heading = "Migration")]
+    pub topology: Option<Topology>,
     /// Generations between two exchanges of migrants [default: 5]
     #[arg(long, value_name = "G", help_heading = "Migration")]
     pub migration_interval: Option<u32>,
@@ -73,6 +78,17 @@ pub struct SettingArgs {
     /// Exchanges by which immigrants come later, so that no island waits [default: 1]
     #[arg(long, value_name = "L", help_heading = "Migration")]
     pub migration_lag: Option<u32>,
+    /// Who is sent: best, random or tournament:SIZE [default: best]
+    #[arg(long, value_name = "WHO", help_heading = "Migration")]
+    pub emigrants: Option<Emigrants>,
+    /// Whom an immigrant replaces: worst (if it is better), random (any but the best) or similar (the most
+    /// similar, if it is better) [default: worst]
+    #[arg(long, value_name = "WHOM", help_heading = "Migration")]
+    pub replacement: Option<Replacement>,
+    /// Whether islands wait for each other's migrants: sync, or async (each takes in what has arrived; the seed
+    /// alone does not fix the result then, but what arrived is recorded and can be replayed) [default: sync]
+    #[arg(long, value_name = "HOW", help_heading = "Migration")]
+    pub exchange: Option<ExchangeMode>,
     /// Generations between two checkpoints of an island: what a crash costs at most [default: 1]
     #[arg(long, value_name = "G", help_heading = "Running")]
     pub checkpoint_interval: Option<u32>,
@@ -107,10 +123,13 @@ impl SettingArgs {
             point_amount: self.point_amount.unwrap_or(config.point_amount),
             shrink_rate: self.shrink_rate.unwrap_or(config.shrink_rate),
             grow_rate: self.grow_rate.unwrap_or(config.grow_rate),
-            topology: config.topology,
+            topology: self.topology.unwrap_or(config.topology),
             migration_interval: self.migration_interval.unwrap_or(config.migration_interval),
             migrants: self.migrants.unwrap_or(config.migrants),
             migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
+            emigrants: self.emigrants.unwrap_or(config.emigrants),
+            replacement: self.replacement.unwrap_or(config.replacement),
+            exchange: self.exchange.unwrap_or(config.exchange),
             checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
             clip_every: self.clip_every.or(config.clip_every),
             threads: self.threads.or(config.threads),
@@ -133,13 +152,14 @@ mod tests {
             --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
+            --topology torus --emigrants random --replacement similar --exchange async \
             --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");
         let file = toml::Table::try_from(Config::default()).expect("plain data");
         for (name, value) in &file {
-            assert!(name == "topology" || laid[name] != *value, "{name} has no flag");
+            assert!(laid[name] != *value, "{name} has no flag");
         }
     }
 }

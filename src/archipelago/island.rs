@@ -115,7 +115,7 @@ pub fn step<P: Problem>(
     let generation = generation + 1;
     let moment = Moment { source: archipelago.source(index), generation };
 
-    let population = migration::immigrate::<P>(population, immigrants);
+    let population = migration::immigrate(problem, population, immigrants, migration, moment);
     let couples = generation::select(&population, strategy, moment);
     let offspring = generation::vary(problem, &population, &couples, strategy, moment);
     let Brood { population: offspring, effort, panicked } =
@@ -123,7 +123,7 @@ pub fn step<P: Problem>(
     let next = generation::survive(&population, offspring, strategy);
     let outbox = migration
         .emigration(generation)
-        .map(|epoch| migration::emigrate(&next, migration, index, epoch));
+        .map(|epoch| migration::emigrate(&next, migration, moment, epoch));
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn where_nothing_is_varied_nobody_is_evaluated_whether_elite_offspring_or_immigrant() {
-        let migration = Migration { interval: 1, migrants: 1, lag: 0 };
+        let migration = Migration { interval: 1, migrants: 1, lag: 0, ..Migration::default() };
         let mut archipelago = archipelago(2, 7, migration);
         let rates = &mut archipelago.strategy.variation;
         (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);

@@ -144,7 +144,11 @@ mod tests {
     use crate::evolution::Individual;
 
     fn archipelago() -> Archipelago {
-        toy::archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 })
+        toy::archipelago(
+            3,
+            5,
+            Migration { interval: 2, migrants: 2, lag: 1, ..Migration::default() },
+        )
     }
 
     #[test]

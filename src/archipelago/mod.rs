@@ -1,6 +1,6 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
-//! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
+//! [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`] is one island's step, a pure function;
 //! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
 //! sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
@@ -15,6 +15,7 @@ pub mod island;
 pub mod lineage;
 pub mod lockstep;
 pub mod migration;
+pub mod policy;
 pub mod soundness;
 pub mod topology;
 pub mod voyage;
@@ -27,6 +28,7 @@ pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};
 pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
+pub use policy::{Emigrants, ExchangeMode, Replacement};
 pub use soundness::Misfit;
 pub use topology::{Graph, Topology};
 pub use voyage::{Deed, Voyage};

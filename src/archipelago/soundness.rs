@@ -93,7 +93,7 @@ mod tests {
     const GENERATION: u32 = 6;
 
     fn run() -> Archipelago {
-        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0 })
+        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0, ..Migration::default() })
     }
 
     #[test]

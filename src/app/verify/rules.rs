@@ -4,7 +4,7 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Champion, Graph, Island, Outbox};
+use crate::archipelago::{Archipelago, Birth, Births, Champion, Emigrants, Graph, Island, Outbox};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
@@ -235,15 +235,16 @@ impl<'a> Terms<'a> {
                 return wrong("is of another island or epoch");
             }
             let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
-            let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
+            let are_in_order = fitness.is_sorted_by(|a, b| a >= b);
             let can_be_sent = outbox.fits(&self.archipelago, island);
-            if fitness.len() != self.config.migrants || !are_the_best || !can_be_sent {
+            if fitness.len() != self.config.migrants || !are_in_order || !can_be_sent {
                 return wrong("holds migrants that cannot have been sent");
             }
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
             let best = entries.get(generation).map(|entry| entry.report.statistics.best);
+            let sends_the_best = self.config.emigrants == Emigrants::Best;
             if let (Some(best), Some(&first)) = (best, fitness.first())
-                && best != first
+                && (first > best || (sends_the_best && first < best))
             {
                 return wrong(&format!("disagrees with the report of generation {generation}"));
             }

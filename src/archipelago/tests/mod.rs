@@ -91,6 +91,7 @@ fn draw(rng: &mut Stream) -> Schedule {
         interval: rng.random_range(1..=4),
         migrants: rng.random_range(0..=3),
         lag: rng.random_range(0..=3),
+        ..Migration::default()
     };
     let islands = rng.random_range(1..=5);
     Schedule {
@@ -119,7 +120,7 @@ fn one_of<T: Copy, const N: usize>(rng: &mut Stream, choices: [T; N]) -> T {
 
 /// A pair that exchanges after every generation, without a lag.
 fn pair() -> Archipelago {
-    archipelago(2, 1, Migration { interval: 1, migrants: 1, lag: 0 })
+    archipelago(2, 1, Migration { interval: 1, migrants: 1, lag: 0, ..Migration::default() })
 }
 
 fn outbox(epoch: u32) -> Outbox<Bit> {

@@ -40,7 +40,7 @@ fn archipelago(islands: u32) -> Archipelago {
         islands,
         seed: 1,
         topology: Topology::Ring,
-        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1 },
+        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 4,
             elites: 1,
