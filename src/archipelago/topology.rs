@@ -163,6 +163,11 @@ impl Graph {
         self.into.get(island as usize).map_or(&[], Vec::as_slice)
     }
 
+    /// How many edges there are.
+    pub fn edges(&self) -> usize {
+        self.out.iter().map(Vec::len).sum()
+    }
+
     /// The length of the longest of the shortest ways back from a receiver to its sender, in edges: how many times
     /// as far as from one island to the next a sender that never waits for its reader can get ahead of it. None if
     /// there is no way back, 0 if nobody sends.

@@ -2,6 +2,7 @@
 
 mod claims;
 mod deaths;
+mod graphs;
 mod lives;
 
 use super::ports;
