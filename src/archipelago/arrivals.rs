@@ -48,13 +48,10 @@ impl<G: Clone> Mailbox<G> {
     /// recorded this; none if it begins from its seed.
     pub fn new(sources: Vec<u32>, generation: Option<u32>, record: Vec<Arrivals>) -> Self {
         let is_over = |entry: &Arrivals| generation.is_some_and(|g| entry.generation <= g);
-        let (over, script): (Vec<_>, VecDeque<_>) = {
-            let (over, script): (Vec<_>, Vec<_>) = record.into_iter().partition(is_over);
-            (over, script.into())
-        };
+        let (over, script): (Vec<_>, Vec<_>) = record.into_iter().partition(is_over);
         let taken = over.into_iter().flat_map(|entry| entry.taken).collect();
         let (newest, recalled) = (BTreeMap::new(), BTreeMap::new());
-        Self { sources, newest, taken, script, recalled, ready: None }
+        Self { sources, newest, taken, script: script.into(), recalled, ready: None }
     }
 
     /// Hands in what arrived.
@@ -188,7 +185,8 @@ mod tests {
 
     #[test]
     fn what_was_recorded_is_taken_in_again_and_nothing_else_until_the_record_ends() {
-        let record = vec![arrivals(1, &[]), arrivals(6, &[(1, 4)]), arrivals(11, &[(1, 6), (2, 1)])];
+        let record =
+            vec![arrivals(1, &[]), arrivals(6, &[(1, 4)]), arrivals(11, &[(1, 6), (2, 1)])];
         let mut mailbox = Mailbox::new(vec![1, 2], Some(8), record);
         assert_eq!(mailbox.accept(outbox(1, 4)), Arrival::Stale, "it was taken before");
         for early in [outbox(1, 9), outbox(2, 1)] {

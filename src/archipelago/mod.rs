@@ -1,14 +1,15 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
 //! [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`] is one island's step, a pure function;
-//! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
-//! sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
+//! [`inbox`] is the receiving end of the exchange protocol, [`arrivals`] that of an exchange in which nobody waits,
+//! and [`voyage`] the whole of it as an island sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!
 //! Architecture invariant: pure, like [`crate::evolution`]. Whether migrants travel through shared memory,
 //! a file or a variable is not known here.
 
+pub mod arrivals;
 pub mod digest;
 pub mod inbox;
 pub mod island;
@@ -23,6 +24,7 @@ pub mod voyage;
 #[cfg(test)]
 mod tests;
 
+pub use arrivals::Arrivals;
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};

@@ -16,10 +16,11 @@ mod supervisor;
 use super::Failure;
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
-use super::console::print;
+use super::console::{print, say};
 use super::kinship::Ear;
 use super::result::{self, Summary};
 use super::seeds;
+use crate::archipelago::ExchangeMode;
 use crate::creature::Gene;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
@@ -93,6 +94,13 @@ struct Launch {
 impl Launch {
     fn go(self, output: &OutputArgs) -> Result<(), Failure> {
         let Self { config, dir, claim, domain, harbour, ear } = self;
+        if config.exchange == ExchangeMode::Async {
+            claim.make_arrivals()?;
+            say(
+                "note: islands do not wait for each other: the seed alone does not fix the result; what each takes in \
+                 is recorded, so that it can be evolved again to the same digest",
+            );
+        }
         let supervised = Supervisor::launch(&config, &dir, &domain, &harbour, ear, output)
             .and_then(Supervisor::see_to_the_end);
         if supervised.is_err() {

@@ -48,7 +48,9 @@ fn a_process_has_no_more_files_open_than_were_asked_for() {
     let files = || fs::read_dir("/proc/self/fd").unwrap().count();
     let before = files();
     let exchanges: Vec<_> = (0..12).map(open).collect();
-    exchanges.iter().for_each(|exchange| drop(exchange.wait(Duration::ZERO).unwrap()));
+    for exchange in &exchanges {
+        exchange.wait(Duration::ZERO).unwrap();
+    }
     // Other tests have some open, too.
     let taken = files().saturating_sub(before) as u64 / 12;
     assert!(taken < plan.files(), "{taken} of {}", plan.files());
@@ -76,6 +78,8 @@ fn where_nobody_waits_the_newest_outboxes_push_older_ones_out() {
     let open = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
     let [sender, reader] = [0, 1].map(open);
     sender.wait(Duration::ZERO).unwrap();
-    (0..30).for_each(|epoch| drop(sender.publish(&outbox(0, epoch)).unwrap()));
+    for epoch in 0..30 {
+        sender.publish(&outbox(0, epoch)).unwrap();
+    }
     assert_eq!(epochs(reader.receive()).last(), Some(&29));
 }
