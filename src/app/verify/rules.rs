@@ -4,7 +4,11 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Champion, Emigrants, Graph, Island, Outbox};
+use crate::archipelago::arrivals::check_record;
+use crate::archipelago::{
+    Archipelago, Arrivals, Birth, Births, Champion, Emigrants, ExchangeMode, Graph, Island, Outbox,
+    Report,
+};
 use crate::creature::Gene;
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
@@ -100,9 +104,13 @@ impl<'a> Terms<'a> {
         if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
             return wrong("counts evaluations that cannot have been");
         }
-        let arrive = self.archipelago.migration.immigration(generation).is_some();
         let senders = self.graph.in_neighbours(island).len();
-        let immigrants = if arrive { senders * self.config.migrants } else { 0 };
+        let immigrants = match self.archipelago.migration.immigration(generation) {
+            // What arrived is on record.
+            _ if self.is_async() => report.immigrants as usize,
+            Some(_) => senders * self.config.migrants,
+            None => 0,
+        };
         if report.immigrants as usize != immigrants {
             return wrong("counts immigrants that cannot have been");
         }
@@ -115,12 +123,13 @@ impl<'a> Terms<'a> {
     /// What must hold of those who were born on an island.
     pub fn lineages(
         &self,
+        island: u32,
         lineages: &[Births],
         entries: &[Entry],
         state: Option<&Island<Gene>>,
     ) -> Result<(), String> {
         for (generation, births) in (0..).zip(lineages) {
-            self.births(generation, births, entries.get(generation as usize))
+            self.births([island, generation], births, entries.get(generation as usize))
                 .map_err(|reason| format!("what it says of generation {generation} {reason}"))?;
         }
         let Some(state) = state else { return Ok(()) };
@@ -138,16 +147,22 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn births(&self, generation: u32, found: &Births, entry: Option<&Entry>) -> Result<(), String> {
+    fn births(
+        &self,
+        [island, generation]: [u32; 2],
+        found: &Births,
+        entry: Option<&Entry>,
+    ) -> Result<(), String> {
         let wrong = |reason: &str| Err(reason.to_owned());
         let Config { population, elites, islands, .. } = *self.config;
         let brood = if generation == 0 { population } else { population - elites };
         if found.generation != generation || found.births.len() != brood {
             return wrong("is of another generation or size");
         }
-        let lived = |id: Id| {
-            id.generation < generation && id.island < islands && (id.index as usize) < population
-        };
+        let is_older =
+            |id: Id| id.generation < generation || (self.is_async() && id.island != island);
+        let lived =
+            |id: Id| is_older(id) && id.island < islands && (id.index as usize) < population;
         let can_be = |birth: &Birth| match birth.parents {
             [None, None] => generation == 0,
             [Some(mother), None] => lived(mother),
@@ -215,6 +230,36 @@ impl<'a> Terms<'a> {
             return Err(format!("it disagrees with the report of generation {generation}"));
         }
         Ok(())
+    }
+
+    /// Whether its islands do not wait for each other.
+    pub fn is_async(&self) -> bool {
+        self.config.exchange == ExchangeMode::Async
+    }
+
+    /// What must hold of the record of what an island took in, but for the senders' journals.
+    pub fn arrivals(
+        &self,
+        island: u32,
+        record: &[Arrivals],
+        entries: &[Entry],
+    ) -> Result<(), String> {
+        check_record(record, &self.archipelago, island)?;
+        for entry in entries {
+            let Report { generation, immigrants, .. } = entry.report;
+            let epoch = self.archipelago.migration.beginning(generation);
+            let arrivals = epoch.and_then(|epoch| record.get(epoch as usize));
+            let outboxes = arrivals.map_or(0, |arrivals| arrivals.taken.len());
+            if immigrants as usize != outboxes * self.config.migrants {
+                return Err(format!("it disagrees with the report of generation {generation}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// How many epochs an island has begun by the end of a generation.
+    pub fn begun(&self, generation: usize) -> usize {
+        generation.div_ceil(self.config.migration_interval as usize)
     }
 
     /// How many outboxes an island has sent by the end of a generation.
