@@ -142,7 +142,7 @@ fn archipelago(migrants: usize) -> Archipelago {
         islands: 2,
         seed: 7,
         topology: Topology::Ring,
-        migration: Migration { interval: 5, migrants, lag: 1 },
+        migration: Migration { interval: 5, migrants, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 24,
             elites: 2,

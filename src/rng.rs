@@ -35,6 +35,12 @@ pub enum Purpose {
     Instance = 16,
     /// What differs in a trial: drawn for a trial's index alone, for all runs alike.
     Perturbation = 20,
+    /// The individuals that an island sends.
+    Emigration = 8,
+    /// The residents that immigrants replace.
+    Immigration = 9,
+    /// Who sends to whom, which is not drawn on any island.
+    Topology = 10,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

@@ -67,6 +67,18 @@ fn processes_that_exchange_migrants_equal_an_archipelago_in_one_process() {
         ("three", "--n 3 --migration-interval 1"),
         ("three-at-once", "--n 3 --migration-interval 2 --migration-lag 0"),
         ("two-send-all", "--n 2 --migration-interval 1 --migrants 4"),
+        (
+            "torus",
+            "--n 6 --topology torus --emigrants tournament:2 --replacement similar --migration-interval 1",
+        ),
+        (
+            "star",
+            "--n 4 --topology star --emigrants random --replacement random --migration-interval 1",
+        ),
+        (
+            "random",
+            "--n 5 --topology random-regular:2 --replacement similar --migration-interval 1",
+        ),
     ] {
         let found = in_processes(&world, name, &format!("{settings} {more}"));
         let config = Config::read(&RunDir::at(world.path(name)).config()).unwrap();

@@ -1,5 +1,6 @@
 //! The promises of the crate, a module a subject.
 
+mod asynchrony;
 mod bodies;
 mod chaos;
 mod cleaning;

@@ -7,7 +7,8 @@ pub use file::{FILE_BYTES_MAX, one_line};
 use super::Failure;
 use super::catalogue::Kind;
 use super::seeds::SeedGenomes;
-use crate::archipelago::{Algorithm, Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
+use crate::archipelago::migration::{MIGRANTS_MAX, Migration};
+use crate::archipelago::{Algorithm, Archipelago, Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::{Profile, Scales};
 use crate::evolution::{
     Adaptation, Crossover, Mutation, Reproduction, Selection, Strategy, Survival, Variation,
@@ -111,6 +112,12 @@ pub struct Config {
     pub migrants: usize,
     /// Epochs by which immigrants are older than they could be, so that no island waits.
     pub migration_lag: u32,
+    /// Who is sent.
+    pub emigrants: Emigrants,
+    /// Whom immigrants replace.
+    pub replacement: Replacement,
+    /// Whether islands wait for each other; if not, the seed alone does not fix the result.
+    pub exchange: ExchangeMode,
     /// Generations between two checkpoints of an island; its first and last state are always saved. The result
     /// does not depend on it.
     pub checkpoint_interval: u32,
@@ -180,6 +187,9 @@ impl Default for Config {
             migration_interval: 5,
             migrants: 2,
             migration_lag: 1,
+            emigrants: Emigrants::Best,
+            replacement: Replacement::Worst,
+            exchange: ExchangeMode::Sync,
             checkpoint_interval: 1,
             clip_every: None,
             threads: None,
@@ -282,6 +292,9 @@ impl Config {
                 interval: self.migration_interval,
                 migrants: self.migrants,
                 lag: self.migration_lag,
+                emigrants: self.emigrants,
+                replacement: self.replacement,
+                exchange: self.exchange,
             },
             strategy: Strategy {
                 population: self.population,

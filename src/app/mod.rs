@@ -126,9 +126,13 @@ impl From<StoreError> for Failure {
 
 impl From<crate::transport::TransportError> for Failure {
     fn from(error: crate::transport::TransportError) -> Self {
-        use crate::transport::TransportError::{NoSpace, TooManyMigrants};
+        use crate::transport::TransportError::{
+            NoSpace, TooManyEdges, TooManyFiles, TooManyMigrants,
+        };
         match error {
-            NoSpace { .. } | TooManyMigrants { .. } => Self::usage(error.to_string()),
+            NoSpace { .. } | TooManyEdges { .. } | TooManyFiles { .. } | TooManyMigrants { .. } => {
+                Self::usage(error.to_string())
+            }
             _ => Self::failed(error.to_string()),
         }
     }

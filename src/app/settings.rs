@@ -2,7 +2,7 @@
 
 use super::config::Config;
 use super::problem_args::ProblemArgs;
-use crate::archipelago::Algorithm;
+use crate::archipelago::{Algorithm, Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::Profile;
 use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
 use crate::problems::{RobustBy, Task};
@@ -100,6 +100,10 @@ pub struct SettingArgs {
     #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "BOOL",
         help_heading = "Genetic algorithm")]
     pub heterogeneous: Option<bool>,
+    /// Who sends migrants to whom: ring, bidirectional-ring, full, torus, star, hypercube, random-regular:DEGREE
+    /// or none [default: ring]
+    #[arg(long, value_name = "GRAPH", help_heading = "Migration")]
+    pub topology: Option<Topology>,
     /// Generations between two exchanges of migrants [default: 5]
     #[arg(long, value_name = "G", help_heading = "Migration")]
     pub migration_interval: Option<u32>,
@@ -109,6 +113,17 @@ pub struct SettingArgs {
     /// Exchanges by which immigrants come later, so that no island waits [default: 1]
     #[arg(long, value_name = "L", help_heading = "Migration")]
     pub migration_lag: Option<u32>,
+    /// Who is sent: best, random or tournament:SIZE [default: best]
+    #[arg(long, value_name = "WHO", help_heading = "Migration")]
+    pub emigrants: Option<Emigrants>,
+    /// Whom an immigrant replaces: worst (if it is better), random (any but the best) or similar (the most
+    /// similar, if it is better) [default: worst]
+    #[arg(long, value_name = "WHOM", help_heading = "Migration")]
+    pub replacement: Option<Replacement>,
+    /// Whether islands wait for each other's migrants: sync, or async (each takes in what has arrived; the seed
+    /// alone does not fix the result then, but what arrived is recorded and can be replayed) [default: sync]
+    #[arg(long, value_name = "HOW", help_heading = "Migration")]
+    pub exchange: Option<ExchangeMode>,
     /// Generations between two checkpoints of an island: what a crash costs at most [default: 1]
     #[arg(long, value_name = "G", help_heading = "Running")]
     pub checkpoint_interval: Option<u32>,
@@ -153,10 +168,13 @@ impl SettingArgs {
             duplicate_rate: self.duplicate_rate.unwrap_or(config.duplicate_rate),
             adaptation: self.adaptation.unwrap_or(config.adaptation),
             heterogeneous: self.heterogeneous.unwrap_or(config.heterogeneous),
-            topology: config.topology,
+            topology: self.topology.unwrap_or(config.topology),
             migration_interval: self.migration_interval.unwrap_or(config.migration_interval),
             migrants: self.migrants.unwrap_or(config.migrants),
             migration_lag: self.migration_lag.unwrap_or(config.migration_lag),
+            emigrants: self.emigrants.unwrap_or(config.emigrants),
+            replacement: self.replacement.unwrap_or(config.replacement),
+            exchange: self.exchange.unwrap_or(config.exchange),
             checkpoint_interval: self.checkpoint_interval.unwrap_or(config.checkpoint_interval),
             clip_every: self.clip_every.or(config.clip_every),
             threads: self.threads.or(config.threads),
@@ -180,6 +198,7 @@ mod tests {
             --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
+            --topology torus --emigrants random --replacement similar --exchange async \
             --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone --algorithm random --survival crowding \
             --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
             --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by mean";
@@ -188,7 +207,7 @@ mod tests {
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");
         let file = toml::Table::try_from(Config::default()).expect("plain data");
         for (name, value) in &file {
-            assert!(name == "topology" || laid[name] != *value, "{name} has no flag");
+            assert!(laid[name] != *value, "{name} has no flag");
         }
     }
 }

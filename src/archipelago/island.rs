@@ -6,9 +6,7 @@ use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
 use crate::evolution::survival::map_elites;
-use crate::evolution::{
-    Fitness, Gene, Individual, Memory, Problem, Statistics, Strategy, Survival,
-};
+use crate::evolution::{Fitness, Gene, Individual, Memory, Problem, Statistics, Survival};
 use crate::rng::Purpose;
 use serde::{Deserialize, Serialize};
 
@@ -131,7 +129,14 @@ pub fn step<P: Problem>(
     let moment = Moment { source: archipelago.source(index), generation };
     let strategy = &strategy.on(index, &memory);
 
-    let population = immigrate(problem, strategy, population, immigrants);
+    let population = match strategy.survival {
+        // On a map immigrants compete for their cells like everybody else.
+        Survival::MapElites { bins } => {
+            let migrants = migration::in_order(immigrants).cloned();
+            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
+        }
+        _ => migration::immigrate(problem, population, immigrants, migration, moment),
+    };
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
     let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population);
@@ -141,7 +146,7 @@ pub fn step<P: Problem>(
     let next = strategy.survival.survivors(problem, &population, brood, strategy.elites);
     let outbox = migration
         .emigration(generation)
-        .map(|epoch| migration::emigrate(&next, migration, index, epoch));
+        .map(|epoch| migration::emigrate(&next, migration, moment, epoch));
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
@@ -165,24 +170,6 @@ pub fn step<P: Problem>(
     Step { island, outbox, births, report, champion: crowned, panicked }
 }
 
-/// Phase: takes immigrants in. On a map they compete for their cells like everybody else.
-fn immigrate<P: Problem>(
-    problem: &P,
-    strategy: &Strategy,
-    population: Population<P::Gene>,
-    immigrants: &[Outbox<P::Gene>],
-) -> Population<P::Gene> {
-    match strategy.survival {
-        Survival::MapElites { bins } => {
-            let mut outboxes: Vec<_> = immigrants.iter().collect();
-            outboxes.sort_by_key(|outbox| outbox.island);
-            let migrants = outboxes.into_iter().flat_map(|outbox| outbox.migrants.iter().cloned());
-            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
-        }
-        _ => migration::immigrate::<P>(population, immigrants),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::Migration;
@@ -192,7 +179,7 @@ mod tests {
 
     #[test]
     fn where_nothing_is_varied_nobody_is_evaluated_whether_elite_offspring_or_immigrant() {
-        let migration = Migration { interval: 1, migrants: 1, lag: 0 };
+        let migration = Migration { interval: 1, migrants: 1, lag: 0, ..Migration::default() };
         let mut archipelago = archipelago(2, 7, migration);
         let rates = &mut archipelago.strategy.variation;
         (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);

@@ -58,6 +58,9 @@ pub enum Gap {
     /// It was drawn from a distribution, which is not recorded.
     #[error("{0} has no ancestors: it was drawn from a distribution")]
     Drawn(Id),
+    /// Somebody is said to be its own ancestor.
+    #[error("{0} is said to be its own ancestor")]
+    Circular(Id),
 }
 
 impl Lineage {
@@ -71,20 +74,26 @@ impl Lineage {
         self.islands.get(&island).map_or(0, Vec::len)
     }
 
-    /// How an individual came to be, if that is known. Nobody is born before its parents: what says so is not
-    /// believed.
+    /// How an individual came to be, if that is known. Nobody is born before its parents: what says so of those who
+    /// were born on the same island is not believed. Immigrants may be of later generations than their offspring,
+    /// where islands do not wait for each other.
     pub fn birth(&self, id: Id) -> Option<Birth> {
         let births = self.islands.get(&id.island)?.get(id.generation as usize)?;
         let birth = *births.births.get(id.index as usize)?;
-        let is_older = |parent: Id| parent.generation < id.generation;
+        let is_older = |parent: Id| parent.island != id.island || parent.generation < id.generation;
         birth.parents.into_iter().flatten().all(is_older).then_some(birth)
     }
 
     /// The mothers of an individual from the first one on, itself the last: whose root the bodies of the line have,
     /// since a genome begins with its mother's genes.
     pub fn line(&self, id: Id) -> Vec<Id> {
-        let mother = |&id: &Id| self.birth(id)?.parents[0];
-        let mut line: Vec<Id> = std::iter::successors(Some(id), mother).collect();
+        let (mut line, mut seen) = (Vec::new(), BTreeSet::new());
+        let mut next = Some(id);
+        // A file may say of somebody to be its own ancestor.
+        while let Some(id) = next.filter(|&id| seen.insert(id)) {
+            line.push(id);
+            next = self.birth(id).and_then(|birth| birth.parents[0]);
+        }
         line.reverse();
         line
     }
@@ -92,7 +101,7 @@ impl Lineage {
     /// The genomes of individuals, bred again from generation 0 on.
     ///
     /// # Errors
-    /// If an ancestor is not known, or was bred otherwise.
+    /// If an ancestor is not known, was bred otherwise, or is its own ancestor.
     pub fn genomes<P: Problem>(
         &self,
         ids: &[Id],
@@ -101,7 +110,7 @@ impl Lineage {
     ) -> Result<BTreeMap<Id, Vec<P::Gene>>, Gap> {
         let mut genomes: BTreeMap<Id, Vec<P::Gene>> = BTreeMap::new();
         // Parents come before their offspring.
-        for (_, id) in self.ancestors(ids)? {
+        for id in self.ancestors(ids)? {
             let parents = self.birth(id).ok_or(Gap::Unknown(id))?.parents;
             let [mother, father] = parents.map(|id| id.map(|id| &genomes[&id][..]));
             let strategy = &archipelago.strategy.on(id.island, &self.memory_at(id));
@@ -135,17 +144,27 @@ impl Lineage {
         Memory { amount_scale, ..Memory::default() }
     }
 
-    /// All ancestors of individuals and themselves, by generation.
-    fn ancestors(&self, ids: &[Id]) -> Result<BTreeSet<(u32, Id)>, Gap> {
-        let mut found = BTreeSet::new();
-        let mut open = ids.to_vec();
-        while let Some(id) = open.pop() {
-            if found.insert((id.generation, id)) {
-                let birth = self.birth(id).ok_or(Gap::Unknown(id))?;
-                open.extend(birth.parents.into_iter().flatten());
+    /// All ancestors of individuals and themselves, parents before their offspring.
+    fn ancestors(&self, ids: &[Id]) -> Result<Vec<Id>, Gap> {
+        let (mut order, mut is_in_order) = (Vec::new(), BTreeMap::new());
+        let mut open: Vec<(Id, bool)> = ids.iter().map(|&id| (id, false)).collect();
+        while let Some((id, has_ancestors)) = open.pop() {
+            if has_ancestors {
+                is_in_order.insert(id, true);
+                order.push(id);
+                continue;
+            }
+            match is_in_order.insert(id, false) {
+                Some(true) => drop(is_in_order.insert(id, true)),
+                Some(false) => return Err(Gap::Circular(id)),
+                None => {
+                    let birth = self.birth(id).ok_or(Gap::Unknown(id))?;
+                    open.push((id, true));
+                    open.extend(birth.parents.into_iter().flatten().map(|id| (id, false)));
+                }
             }
         }
-        Ok(found)
+        Ok(order)
     }
 }
 
@@ -157,7 +176,11 @@ mod tests {
     use super::*;
 
     fn archipelago() -> Archipelago {
-        toy::archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 })
+        toy::archipelago(
+            3,
+            5,
+            Migration { interval: 2, migrants: 2, lag: 1, ..Migration::default() },
+        )
     }
 
     #[test]
@@ -209,10 +232,25 @@ mod tests {
         let parent = Some(id(0, 0));
         assert_eq!(breed([Some(id(0, 9)), None]), Err(Gap::Unknown(id(0, 9))));
         assert_eq!(breed([Some(id(1, 0)), None]), Err(Gap::Unknown(id(1, 0))));
+        let elsewhere = Id { island: 1, generation: 3, index: 0 };
+        assert_eq!(breed([Some(elsewhere), None]), Err(Gap::Unknown(elsewhere)));
         let found = [breed([parent, None]), breed([parent, parent])];
         assert!(
             found.contains(&Ok(())) && found.contains(&Err(Gap::Unlike(id(1, 0)))),
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn who_is_said_to_be_its_own_ancestor_is_not_bred() {
+        let id = |island| Id { island, generation: 0, index: 0 };
+        let mut lineage = Lineage::default();
+        for island in 0..2 {
+            let birth = Birth { parents: [Some(id(1 - island)), None], fitness: Fitness::WORST };
+            lineage.push(island, Births { generation: 0, amount_scale: 1.0, births: vec![birth] });
+        }
+        let bred = lineage.genomes(&[id(0)], &Toy, &archipelago());
+        assert_eq!(bred, Err(Gap::Circular(id(0))));
+        assert_eq!(lineage.line(id(0)), [id(1), id(0)]);
     }
 }

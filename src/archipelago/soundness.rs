@@ -1,7 +1,7 @@
 //! Whether what was read from a file can be of this run: a checksum only says that it is as somebody wrote it,
 //! and evolution relies on more.
 
-use super::{Archipelago, Island, Outbox};
+use super::{Archipelago, ExchangeMode, Island, Outbox};
 use crate::evolution::{Gene, Id, Individual};
 
 /// Why something is no state of an island.
@@ -44,7 +44,7 @@ impl<G: Gene> Island<G> {
         require(archipelago.strategy.sizes().contains(&population.len()), Misfit::Size)?;
         require(self.memory.is_sound(&archipelago.strategy), Misfit::Memory)?;
         for individual in population.iter().chain([champion]) {
-            possible(individual, archipelago, self.generation)?;
+            possible(individual, archipelago, index, self.generation)?;
         }
         require(population.iter().all(|i| i.fitness <= champion.fitness), Misfit::Champion)?;
         let born =
@@ -66,19 +66,23 @@ impl<G: Gene> Outbox<G> {
             && self
                 .migrants
                 .iter()
-                .all(|migrant| possible(migrant, archipelago, generation).is_ok())
+                .all(|migrant| possible(migrant, archipelago, source, generation).is_ok())
     }
 }
 
-/// Whether there can be such an individual in a run by the end of `generation`.
+/// Whether there can be such an individual on an island by the end of `generation`. Where islands do not wait for each
+/// other, who came from elsewhere may be of any generation.
 fn possible<G: Gene>(
     individual: &Individual<G>,
     run: &Archipelago,
+    index: u32,
     generation: u32,
 ) -> Result<(), Misfit> {
     let Individual { id, parents, origin, genome, .. } = individual;
     let lengths = 1..=run.strategy.variation.genes_max;
-    let exists = |id: &Id| id.island < run.islands && id.generation <= generation;
+    let is_async = run.migration.exchange == ExchangeMode::Async;
+    let was_born = |id: &Id| id.generation <= generation || (is_async && id.island != index);
+    let exists = |id: &Id| id.island < run.islands && was_born(id);
     require(lengths.contains(&genome.len()), Misfit::Length)?;
     require(genome.iter().all(Gene::is_valid), Misfit::Gene)?;
     require(*origin <= id.generation, Misfit::Lineage)?;
@@ -100,7 +104,7 @@ mod tests {
     const GENERATION: u32 = 6;
 
     fn run() -> Archipelago {
-        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0 })
+        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0, ..Migration::default() })
     }
 
     #[test]

@@ -183,7 +183,9 @@ pub fn vary<P: Problem>(
         let (genome, two_parents) =
             breed(problem, strategy, moment, index, &mother.genome, &father.genome);
         let parents = [Some(mother.id), two_parents.then_some(father.id)];
-        let origin = if two_parents { mother.origin.min(father.origin) } else { mother.origin };
+        let oldest = if two_parents { mother.origin.min(father.origin) } else { mother.origin };
+        // Where islands do not wait for each other, parents may come from a later generation.
+        let origin = oldest.min(moment.generation);
         Offspring { id: moment.id(index), parents, origin, genome }
     };
     couples.iter().enumerate().map(offspring).collect()

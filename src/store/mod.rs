@@ -21,7 +21,7 @@ pub mod run_dir;
 pub use checkpoint::Checkpoint;
 pub use checkpoints::Checkpoints;
 pub use experiment_dir::ExperimentDir;
-pub use journal::Journal;
+pub use journal::{Journal, JournalReader};
 pub use logbook::{Entry, Logbook, Restored};
 pub use record_log::{RecordLog, Tail};
 pub use run_dir::{Claim, RunDir};

@@ -21,6 +21,7 @@ use std::path::{Path, PathBuf};
 /// reports/island-<i>.log                  what every generation of an island was like
 /// lineages/island-<i>.log                 who was born of whom on an island, generation by generation
 /// migrations/island-<i>.log               every outbox that an island sent
+/// arrivals/island-<i>.log                 what an island took in, where islands do not wait for each other
 /// checkpoints/island-<i>/<generation>.ckpt   an island's state: the newest two
 /// .partial/                               what is not whole yet, while a launcher is at work
 /// ```
@@ -172,6 +173,11 @@ impl RunDir {
         self.0.join("migrations").join(format!("island-{island}.log"))
     }
 
+    /// What an island took in, where islands do not wait for each other.
+    pub fn arrivals(&self, island: u32) -> PathBuf {
+        self.0.join("arrivals").join(format!("island-{island}.log"))
+    }
+
     /// The folder of an island's checkpoints; nothing else lies there.
     pub fn checkpoints(&self, island: u32) -> PathBuf {
         self.0.join("checkpoints").join(format!("island-{island}"))
@@ -202,6 +208,14 @@ impl Claim {
         folders.into_iter().chain(partial).chain(checkpoints).try_for_each(|f| make(&f))?;
         self.sweep();
         Ok(())
+    }
+
+    /// Makes the folder of what islands take in, which only runs have in which they do not wait for each other.
+    ///
+    /// # Errors
+    /// Like [`Claim::make_folders`].
+    pub fn make_arrivals(&self) -> Result<(), StoreError> {
+        make(&self.dir.path().join("arrivals"))
     }
 
     pub(super) fn sweep(&self) {

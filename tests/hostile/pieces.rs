@@ -27,7 +27,7 @@ pub fn archipelago() -> Archipelago {
         islands: 2,
         seed: 7,
         topology: Topology::Ring,
-        migration: Migration { interval: 1, migrants: 2, lag: 1 },
+        migration: Migration { interval: 1, migrants: 2, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 3,
             elites: 1,

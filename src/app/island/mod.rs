@@ -11,9 +11,9 @@ use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
 use super::seeds;
 use super::subject::Subject;
-use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
+use crate::archipelago::{Archipelago, Arrival, Deed, ExchangeMode, Outbox, Step, Voyage};
 use crate::problems::Founded;
-use crate::store::{Journal, Logbook, Restored, RunDir};
+use crate::store::{Journal, JournalReader, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
 use panics::Panics;
 use patience::Patience;
@@ -51,7 +51,7 @@ impl Visitor for Sailing<'_> {
             .num_threads(args.threads)
             .build_global()
             .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-        let Restored { logbook, island, warnings } =
+        let Restored { logbook, island, arrivals, warnings } =
             Logbook::open(dir, &archipelago, args.index, &config.settings())?;
         for warning in warnings {
             say(&format!("warning: {warning}"));
@@ -59,6 +59,7 @@ impl Visitor for Sailing<'_> {
         let problem = seeds::founded(dir, config, problem)?;
         let saved = island.as_ref().map(|island| island.generation);
         let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
+        let voyage = voyage.with_record(arrivals);
         let mut ship = Ship {
             config,
             archipelago: &archipelago,
@@ -73,9 +74,10 @@ impl Visitor for Sailing<'_> {
             told: Told::default(),
             saved,
             refused: BTreeMap::new(),
+            journals: BTreeMap::new(),
         };
         ship.catch_up(dir)?;
-        ship.sail()
+        ship.sail(dir)
     }
 }
 
@@ -96,6 +98,8 @@ struct Ship<'a, P: Subject> {
     saved: Option<u32>,
     /// Batches that were refused, by the island that they came as.
     refused: BTreeMap<u32, u64>,
+    /// The journals of neighbours from which was read what an earlier life took in.
+    journals: BTreeMap<u32, JournalReader<P::Gene>>,
 }
 
 /// What an island has told its launcher, once each.
@@ -111,7 +115,11 @@ impl<P: Subject> Ship<'_, P> {
     fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let Some(island) = self.voyage.island() else { return Ok(()) };
         let window = self.exchange.history();
-        let next = self.archipelago.migration.next_immigration(island.generation);
+        let migration = &self.archipelago.migration;
+        if migration.exchange == ExchangeMode::Async {
+            return self.send_since(self.logbook.epochs().saturating_sub(window));
+        }
+        let next = migration.next_immigration(island.generation);
         for source in self.archipelago.in_neighbours(island.index) {
             let journal = dir.migrations(source);
             match Journal::read(&journal, next..next.saturating_add(window)) {
@@ -126,7 +134,7 @@ impl<P: Subject> Ship<'_, P> {
     }
 
     /// Evolves until all is done, and serves the neighbours until the launcher wants it to stop.
-    fn sail(&mut self) -> Result<(), Failure> {
+    fn sail(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let clock = Stopwatch::start();
         while !self.ear.heard_stop() {
             self.receive();
@@ -135,6 +143,8 @@ impl<P: Subject> Ship<'_, P> {
             match self.voyage.advance(clock.elapsed()) {
                 Deed::Evolved(step) => self.conclude(&step)?,
                 Deed::Ask { sources, epoch } => self.ask(&sources, epoch),
+                Deed::Record(arrivals) => self.logbook.record_arrivals(&arrivals)?,
+                Deed::Recall(outboxes) => self.recall(dir, &outboxes)?,
                 Deed::Wait => self.wait()?,
                 Deed::Arrived => self.rest()?,
             }
@@ -164,6 +174,21 @@ impl<P: Subject> Ship<'_, P> {
             true => self.save(),
             false => Ok(()),
         }
+    }
+
+    /// Reads in the neighbours' journals what an earlier life took in. What is not there its sender has yet to
+    /// evolve again.
+    fn recall(&mut self, dir: &RunDir, outboxes: &[(u32, u32)]) -> Result<(), Failure> {
+        let mut found = false;
+        for &(source, epoch) in outboxes {
+            let new = || JournalReader::of(dir.migrations(source));
+            let outbox = self.journals.entry(source).or_insert_with(new).outbox(epoch)?;
+            if let Some(outbox) = outbox.filter(|it| it.fits(self.archipelago, source)) {
+                self.voyage.recall(outbox);
+                found = true;
+            }
+        }
+        if found { Ok(()) } else { self.wait() }
     }
 
     fn ask(&self, sources: &[u32], epoch: u32) {
@@ -202,6 +227,10 @@ impl<P: Subject> Ship<'_, P> {
         }
         let epoch = outbox.epoch;
         let epochs = self.config.generations / self.archipelago.migration.interval;
+        // Where nobody waits it would be taken in, and nobody could evolve it again.
+        if self.archipelago.migration.exchange == ExchangeMode::Async && epoch >= epochs {
+            return self.refuse(source, &"it is of an epoch after the end of the run");
+        }
         let arrival = self.voyage.receive(outbox);
         // A neighbour that is far ahead is no liar. One that is soon after the end may be of a run that was to
         // be longer.

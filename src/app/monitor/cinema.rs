@@ -59,8 +59,8 @@ impl<P: Subject> Cinema<P> {
         let ancestry = Ancestry::new(herald.clone(), islands, recorder.pace());
         let unfilmed = (0..islands).map(|_| None).collect();
         let reigns_since = vec![0; islands as usize];
-        let archipelago = config.archipelago();
-        let sources = (0..islands).map(|island| archipelago.in_neighbours(island)).collect();
+        let graph = config.archipelago().graph();
+        let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
         let has_shown = false;
         Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
     }
@@ -218,10 +218,9 @@ impl<P: Subject> Cinema<P> {
 }
 
 fn run_card<P: Subject>(config: &Config, problem: &P, clip_every: Option<u32>) -> RunCard {
-    let archipelago = config.archipelago();
-    let edges = (0..config.islands).flat_map(|island| {
-        archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
-    });
+    let graph = config.archipelago().graph();
+    let edges = (0..config.islands)
+        .flat_map(|island| graph.out_neighbours(island).iter().map(move |&to| (island, to)));
     let clip_every = clip_every.or(config.clip_every);
     RunCard {
         program: Program::Run,

@@ -17,11 +17,12 @@ use super::Failure;
 use super::catalogue::{Kind, Visitor};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
-use super::console::print;
+use super::console::{print, say};
 use super::kinship::Ear;
 use super::result::{self, Summary};
 use super::seeds;
 use super::subject::Subject;
+use crate::archipelago::ExchangeMode;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
 use rand::TryRng;
@@ -133,6 +134,13 @@ struct Launch<P: Subject> {
 impl<P: Subject> Launch<P> {
     fn go(self, output: &OutputArgs) -> Result<(), Failure> {
         let Self { problem, config, dir, claim, domain, harbour, ear } = self;
+        if config.exchange == ExchangeMode::Async {
+            claim.make_arrivals()?;
+            say(
+                "note: islands do not wait for each other: the seed alone does not fix the result; what each takes in \
+                 is recorded, so that it can be evolved again to the same digest",
+            );
+        }
         let supervised =
             Supervisor::launch(&problem, &config, &dir, &domain, &harbour, ear, output)
                 .and_then(Supervisor::see_to_the_end);

@@ -4,6 +4,7 @@ use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::Stopwatch;
 use super::super::settings::SettingArgs;
+use crate::archipelago::ExchangeMode;
 use crate::evolution::Gene;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
 use std::thread::sleep;
@@ -51,6 +52,13 @@ pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
         return Err(Failure::usage(format!(
             "a run cannot go on with other settings: {}; leave that out, or start a new run",
             changes.join(", ")
+        )));
+    }
+    if config.exchange == ExchangeMode::Async && config.generations < own.generations {
+        return Err(Failure::usage(format!(
+            "a run in which islands do not wait for each other cannot be made shorter: an island may have taken in what \
+             another sent after generation {}; leave out --generations",
+            config.generations
         )));
     }
     Ok(config)

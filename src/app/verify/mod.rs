@@ -1,12 +1,13 @@
 //! `islands verify`: whether a run's folder holds what it claims.
 //!
 //! `records` reads what each island left, and `rules` says what must hold of it; `ancestry`
-//! breeds the champions again; `claims` compares it with the
+//! breeds the champions again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it with the
 //! files of the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
 //!
 //! Nothing is written, and a folder may hold anything: what is wrong is a sentence, not an end.
 
 mod ancestry;
+mod arrivals;
 mod check;
 mod claims;
 mod records;
@@ -139,6 +140,7 @@ fn examine<P: Subject>(dir: &RunDir, config: &Config, problem: &P, thorough: boo
         let (found, claims) = claims::check(dir, problem, &terms, &records, &summary, sound);
         digest = found;
         checks.extend(claims);
+        checks.extend(arrivals::replay(dir, problem, &terms, &records, thorough, sound));
     } else {
         checks.push(claims::none_yet(&terms, &records));
     }

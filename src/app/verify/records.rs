@@ -1,9 +1,10 @@
 //! What the islands of a run left, read and checked.
 
+use super::arrivals;
 use super::check::{Check, counted};
 use super::retrial::Claim;
 use super::rules::Terms;
-use crate::archipelago::{Births, Champion, Island, Outbox};
+use crate::archipelago::{Arrivals, Births, Champion, Island, Outbox};
 use crate::evolution::{Fitness, Gene, Individual};
 use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
@@ -22,6 +23,8 @@ pub struct Records<G> {
     pub lineages: Vec<Vec<Births>>,
     /// What each island sent.
     pub outboxes: Vec<Vec<Outbox<G>>>,
+    /// What each island took in, where that is recorded.
+    pub arrivals: Vec<Vec<Arrivals>>,
 }
 
 impl<G: Gene> Records<G> {
@@ -33,6 +36,7 @@ impl<G: Gene> Records<G> {
             reports: Vec::new(),
             lineages: Vec::new(),
             outboxes: Vec::new(),
+            arrivals: Vec::new(),
         };
         let mut reader = Reader::new(dir, terms);
         (0..terms.config.islands).for_each(|island| reader.island(island, &mut records));
@@ -95,6 +99,7 @@ struct Reader<'a> {
     lineages: Check,
     champions: Check,
     migrations: Check,
+    arrivals: Option<Check>,
 }
 
 impl<'a> Reader<'a> {
@@ -108,6 +113,7 @@ impl<'a> Reader<'a> {
             lineages: Check::of("lineages"),
             champions: Check::of("champions"),
             migrations: Check::of("migrations"),
+            arrivals: terms.is_async().then(|| Check::of("arrivals")),
         }
     }
 
@@ -127,7 +133,7 @@ impl<'a> Reader<'a> {
         }
 
         let span = terms.span(state, |generation| generation + 1);
-        let rule = |births: &[_]| terms.lineages(births, &reports, state);
+        let rule = |births: &[_]| terms.lineages(island, births, &reports, state);
         let lineages = read_log(&dir.lineages(island), &mut self.lineages, terms, span, rule);
 
         let span = usize::from(state.is_some())..=terms.config.generations as usize + 1;
@@ -137,6 +143,12 @@ impl<'a> Reader<'a> {
         let span = terms.span(state, |generation| terms.epochs(generation));
         let rule = |outboxes: &[_]| terms.outboxes(island, outboxes, &reports);
         let outboxes = read_log(&dir.migrations(island), &mut self.migrations, terms, span, rule);
+
+        if let Some(check) = &mut self.arrivals {
+            let span = terms.span(state, |generation| terms.begun(generation));
+            let rule = |record: &[_]| terms.arrivals(island, record, &reports);
+            records.arrivals.push(read_log(&dir.arrivals(island), check, terms, span, rule));
+        }
 
         records.states.extend(newest);
         records.reports.push(reports);
@@ -181,15 +193,21 @@ impl<'a> Reader<'a> {
         fn all<T>(logs: &[Vec<T>]) -> usize {
             logs.iter().map(Vec::len).sum()
         }
-        let Self { files, checkpoints, reports, lineages, champions, migrations, .. } = self;
+        let Self { files, checkpoints, reports, lineages, champions, migrations, arrivals, .. } =
+            self;
         let births = records.lineages.iter().flatten().map(|births| births.births.len()).sum();
-        vec![
+        let mut checks = vec![
             checkpoints.checked(counted(files, "file")),
             reports.checked(counted(all(&records.reports), "generation")),
             lineages.checked(counted(births, "birth")),
             champions.checked(counted(all(&records.champions), "champion")),
             migrations.checked(counted(all(&records.outboxes), "epoch")),
-        ]
+        ];
+        checks.extend(arrivals.map(|check| {
+            arrivals::match_journals(self.dir, records, check)
+                .checked(counted(all(&records.arrivals), "epoch"))
+        }));
+        checks
     }
 }
 

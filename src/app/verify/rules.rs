@@ -4,7 +4,11 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
+use crate::archipelago::arrivals::check_record;
+use crate::archipelago::{
+    Archipelago, Arrivals, Birth, Births, Champion, Emigrants, ExchangeMode, Graph, Island, Outbox,
+    Report,
+};
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
 use crate::evolution::{Fitness, Gene, Id, Reproduction, Survival};
@@ -20,6 +24,7 @@ pub struct Terms<'a> {
     /// Whether its champions were confirmed by another judge.
     pub is_judged: bool,
     archipelago: Archipelago,
+    graph: Graph,
     settings: String,
 }
 
@@ -27,7 +32,8 @@ impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
     pub fn new(config: &'a Config, finished: bool, is_judged: bool) -> Self {
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
-        Self { config, finished, is_judged, archipelago, settings }
+        let graph = archipelago.graph();
+        Self { config, finished, is_judged, archipelago, graph, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -98,9 +104,13 @@ impl<'a> Terms<'a> {
         if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
             return wrong("counts evaluations that cannot have been");
         }
-        let arrive = self.archipelago.migration.immigration(generation).is_some();
-        let senders = self.archipelago.in_neighbours(island).len();
-        let immigrants = if arrive { senders * self.archipelago.migration.migrants } else { 0 };
+        let senders = self.graph.in_neighbours(island).len();
+        let immigrants = match self.archipelago.migration.immigration(generation) {
+            // What arrived is on record.
+            _ if self.is_async() => report.immigrants as usize,
+            Some(_) => senders * self.archipelago.migration.migrants,
+            None => 0,
+        };
         let found = report.immigrants as usize;
         if found > immigrants || (!self.is_map() && found < immigrants) {
             return wrong("counts immigrants that cannot have been");
@@ -114,12 +124,13 @@ impl<'a> Terms<'a> {
     /// What must hold of those who were born on an island.
     pub fn lineages<G>(
         &self,
+        island: u32,
         lineages: &[Births],
         entries: &[Entry],
         state: Option<&Island<G>>,
     ) -> Result<(), String> {
         for (generation, births) in (0..).zip(lineages) {
-            self.births(generation, births, entries.get(generation as usize))
+            self.births([island, generation], births, entries.get(generation as usize))
                 .map_err(|reason| format!("what it says of generation {generation} {reason}"))?;
         }
         let Some(state) = state else { return Ok(()) };
@@ -137,7 +148,12 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn births(&self, generation: u32, found: &Births, entry: Option<&Entry>) -> Result<(), String> {
+    fn births(
+        &self,
+        [island, generation]: [u32; 2],
+        found: &Births,
+        entry: Option<&Entry>,
+    ) -> Result<(), String> {
         let wrong = |reason: &str| Err(reason.to_owned());
         let Config { population, islands, .. } = *self.config;
         let is_scale = found.amount_scale > 0.0 && found.amount_scale.is_finite();
@@ -145,9 +161,10 @@ impl<'a> Terms<'a> {
         if found.generation != generation || !has_size || !is_scale {
             return wrong("is of another generation or size");
         }
-        let lived = |id: Id| {
-            id.generation < generation && id.island < islands && (id.index as usize) < population
-        };
+        let is_older =
+            |id: Id| id.generation < generation || (self.is_async() && id.island != island);
+        let lived =
+            |id: Id| is_older(id) && id.island < islands && (id.index as usize) < population;
         let can_be = |birth: &Birth| match birth.parents {
             [None, None] => generation == 0 || self.has_newcomers(),
             [Some(mother), None] => lived(mother),
@@ -244,6 +261,38 @@ impl<'a> Terms<'a> {
         strategy.elites > 0 || strategy.survival.is_steady()
     }
 
+    /// Whether its islands do not wait for each other.
+    pub fn is_async(&self) -> bool {
+        self.config.exchange == ExchangeMode::Async
+    }
+
+    /// What must hold of the record of what an island took in, but for the senders' journals.
+    pub fn arrivals(
+        &self,
+        island: u32,
+        record: &[Arrivals],
+        entries: &[Entry],
+    ) -> Result<(), String> {
+        check_record(record, &self.archipelago, island)?;
+        for entry in entries {
+            let Report { generation, immigrants, .. } = entry.report;
+            let epoch = self.archipelago.migration.beginning(generation);
+            let arrivals = epoch.and_then(|epoch| record.get(epoch as usize));
+            let outboxes = arrivals.map_or(0, |arrivals| arrivals.taken.len());
+            let sent = outboxes * self.archipelago.migration.migrants;
+            let found = immigrants as usize;
+            if found > sent || (!self.is_map() && found < sent) {
+                return Err(format!("it disagrees with the report of generation {generation}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// How many epochs an island has begun by the end of a generation.
+    pub fn begun(&self, generation: usize) -> usize {
+        generation.div_ceil(self.config.migration_interval as usize)
+    }
+
     /// How many outboxes an island has sent by the end of a generation.
     pub fn epochs(&self, generation: usize) -> usize {
         generation / self.config.migration_interval as usize
@@ -262,16 +311,17 @@ impl<'a> Terms<'a> {
                 return wrong("is of another island or epoch");
             }
             let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
-            let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
+            let are_in_order = fitness.is_sorted_by(|a, b| a >= b);
             let can_be_sent = outbox.fits(&self.archipelago, island);
             let are_all = fitness.len() == self.archipelago.migration.migrants || self.is_map();
-            if !are_all || !are_the_best || !can_be_sent {
+            if !are_all || !are_in_order || !can_be_sent {
                 return wrong("holds migrants that cannot have been sent");
             }
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
             let best = entries.get(generation).map(|entry| entry.report.statistics.best);
+            let sends_the_best = self.config.emigrants == Emigrants::Best;
             if let (Some(best), Some(&first)) = (best, fitness.first())
-                && best != first
+                && (first > best || (sends_the_best && first < best))
             {
                 return wrong(&format!("disagrees with the report of generation {generation}"));
             }

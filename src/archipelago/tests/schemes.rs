@@ -12,13 +12,16 @@ const SURVIVALS: [&str; 5] = ["generational", "sharing:0.3", "crowding", "afpo",
 const GENERATIONS: u32 = 12;
 
 fn run(strategy: Strategy) -> Archipelago {
-    let usual = archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 });
+    let usual =
+        archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1, ..Migration::default() });
     Archipelago { strategy, ..usual }
 }
 
 /// Every survival with every selection, crossover, mutation, adaptation and kind of islands, so that each pair meets.
 fn strategies() -> Vec<Strategy> {
-    let usual = archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1 }).strategy;
+    let usual =
+        archipelago(3, 5, Migration { interval: 2, migrants: 2, lag: 1, ..Migration::default() })
+            .strategy;
     let mut strategies = Vec::new();
     for (i, survival) in SURVIVALS.into_iter().enumerate() {
         for (j, selection) in SELECTIONS.into_iter().enumerate() {

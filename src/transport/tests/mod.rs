@@ -2,6 +2,7 @@
 
 mod claims;
 mod deaths;
+mod graphs;
 mod lives;
 
 use super::ports;
@@ -40,7 +41,7 @@ fn archipelago(islands: u32) -> Archipelago {
         islands,
         seed: 1,
         topology: Topology::Ring,
-        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1 },
+        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 4,
             elites: 1,
