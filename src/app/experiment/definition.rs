@@ -136,16 +136,8 @@ impl Definition {
         let seeds = read_seeds(&self.seeds)?;
         let named = self.named()?;
         let points = self.points(named.len() * seeds.len())?;
-        let combine = |(name, own): &(String, Table)| -> Vec<(String, Table)> {
-            let join = |(place, more): &(String, Table)| {
-                let names: Vec<_> = [name, place].into_iter().filter(|it| !it.is_empty()).collect();
-                let joined = names.into_iter().map(String::as_str).collect::<Vec<_>>().join(",");
-                (joined, merged(own, more))
-            };
-            points.iter().map(join).collect()
-        };
         let mut settings = Vec::new();
-        for (name, own) in named.iter().flat_map(combine) {
+        for (name, own) in every_pair(&named, &points) {
             settings.push(self.setting(name, merged(&self.base, &own), seeds[0])?);
         }
         let varied: BTreeSet<_> = named.iter().flat_map(|(_, own)| own.keys()).collect();
@@ -193,16 +185,11 @@ impl Definition {
             if points.len().saturating_mul(values.len()).saturating_mul(others) > RUNS_MAX {
                 return Err(format!("these are more than {RUNS_MAX} runs"));
             }
-            let extend = |(name, point): &(String, Table)| -> Vec<(String, Table)> {
-                let with = |value: &Value| {
-                    let separator = if name.is_empty() { "" } else { "," };
-                    let mut point = point.clone();
-                    point.insert(key.clone(), value.clone());
-                    (format!("{name}{separator}{key}={}", shown(value)), point)
-                };
-                values.iter().map(with).collect()
+            let alone = |value: &Value| {
+                let name = format!("{key}={}", shown(value));
+                (name, Table::from_iter([(key.clone(), value.clone())]))
             };
-            points = points.iter().flat_map(extend).collect();
+            points = every_pair(&points, &values.iter().map(alone).collect::<Vec<_>>());
         }
         match others > RUNS_MAX {
             true => Err(format!("these are more than {RUNS_MAX} runs")),
@@ -224,7 +211,7 @@ impl Definition {
 }
 
 impl Plan {
-    /// A hash of all that decides a run but the seed's place in its name: another one is another run.
+    /// A hash of all that decides a run: with another one it is another run.
     pub fn key(&self, setting: &Setting, seed: u64) -> String {
         let config = setting.config(seed);
         let (all, generations) = (config.settings(), config.generations);
@@ -246,6 +233,16 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// Each of `under` with each of `over`, under both their names.
+fn every_pair(under: &[(String, Table)], over: &[(String, Table)]) -> Vec<(String, Table)> {
+    let pairs = under.iter().flat_map(|one| over.iter().map(move |other| (one, other)));
+    let join = |(one, other): (&(String, Table), &(String, Table))| {
+        let separator = if one.0.is_empty() || other.0.is_empty() { "" } else { "," };
+        (format!("{}{separator}{}", one.0, other.0), merged(&one.1, &other.1))
+    };
+    pairs.map(join).collect()
 }
 
 fn merged(under: &Table, over: &Table) -> Table {
