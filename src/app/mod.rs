@@ -14,6 +14,7 @@
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
+mod atlas;
 mod body_args;
 pub mod catalogue;
 mod clean;

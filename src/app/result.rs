@@ -1,6 +1,7 @@
 //! What came out of a run: gathered from what its islands wrote.
 
 use super::Failure;
+use super::atlas;
 use super::catalogue::Kind;
 use super::config::Config;
 use super::subject::Subject;
@@ -105,6 +106,7 @@ pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<
     let champions = champions(dir, config)?;
     let best = best(&champions).ok_or_else(|| Failure::failed("no island has a champion"))?;
     write_champion(dir, problem, &best.1.individual)?;
+    atlas::write(dir, config, problem, &islands)?;
     let summary = summarise(dir, config, problem, &islands, best, &reports);
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)

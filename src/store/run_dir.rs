@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 /// run.log                                 what happened: starts, deaths, restarts, warnings
 /// metrics.csv                             a row an island and generation
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
+/// map.csv  map/<x>-<y>.csv                the best of each cell of a map of features, if one was drawn
 /// summary.json                            digest, best fitness, evaluations, throughput
 /// recording.rrd                           the run as a film
 /// panic-<i>.<generation>.<k>.csv          a genome whose evaluation panicked on island i: a bug
@@ -126,6 +127,24 @@ impl RunDir {
     /// The metrics of all islands.
     pub fn metrics(&self) -> PathBuf {
         self.0.join("metrics.csv")
+    }
+
+    /// The map of elites.
+    pub fn map(&self) -> PathBuf {
+        self.0.join("map.csv")
+    }
+
+    /// The genome in a cell of it.
+    pub fn map_genome(&self, [x, y]: [u32; 2]) -> PathBuf {
+        self.0.join("map").join(format!("{x}-{y}.csv"))
+    }
+
+    /// Makes the folder of those genomes.
+    ///
+    /// # Errors
+    /// If it cannot be made, or is a link.
+    pub fn make_map(&self) -> Result<(), StoreError> {
+        make(&self.0.join("map"))
     }
 
     /// The genome of the best creature ever.

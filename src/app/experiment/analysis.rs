@@ -1,13 +1,13 @@
 //! What the runs of an experiment say.
 
 use super::archive::Run;
-use super::definition::Plan;
+use super::definition::{Plan, Setting};
 use super::trial::Trial;
 use crate::formats::chart::{Chart, Curve, Point};
 use crate::statistics::{self, Five};
 use serde::Serialize;
 
-/// With more settings than this, each is compared with the first one only, not with every other.
+/// With more settings of an aim than this, each is compared with the first one only, not with every other.
 const ALL_PAIRS_MAX: usize = 6;
 /// Parts into which the axis of evaluations is divided.
 const PARTS: u32 = 240;
@@ -81,11 +81,16 @@ fn summary(name: &str, runs: &[Run], target: Option<f64>) -> Summary {
     }
 }
 
-/// Compares each pair of settings, or each setting with the first one if there are many.
+/// Compares each pair of settings with the same aim, or each setting with the first one of its aim if there are many.
 pub fn comparisons(plan: &Plan, runs: &[Vec<Run>]) -> Vec<Comparison> {
     let count = plan.settings.len();
-    let firsts = if count <= ALL_PAIRS_MAX { count } else { 1 };
-    let pairs = (0..firsts).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+    let aims: Vec<String> = plan.settings.iter().map(Setting::aim).collect();
+    let is_compared = |&(a, b): &(usize, usize)| {
+        let alike = aims.iter().filter(|aim| **aim == aims[a]).count();
+        let is_first = !aims[..a].contains(&aims[a]);
+        aims[a] == aims[b] && (alike <= ALL_PAIRS_MAX || is_first)
+    };
+    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))).filter(is_compared);
     let compare = |(a, b): (usize, usize)| {
         let (of_a, of_b) = (bests(&runs[a]), bests(&runs[b]));
         let test = statistics::mann_whitney(&of_a, &of_b)?;

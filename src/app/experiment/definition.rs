@@ -87,6 +87,15 @@ impl Setting {
         Config { seed: Some(seed), ..self.config.clone() }
     }
 
+    /// What its fitness means: that of settings with another aim is another thing.
+    pub fn aim(&self) -> String {
+        let Config { problem, dimensions, instance, rotated, block, .. } = self.config;
+        let Config { task, robustness, robust_by, .. } = self.config;
+        format!(
+            "{problem} {dimensions} {instance} {rotated} {block} {task} {robustness:?} {robust_by:?}"
+        )
+    }
+
     /// What it has where settings differ, as text, empty where it has nothing.
     pub fn values(&self, varied: &[String]) -> Vec<String> {
         let table = Table::try_from(&self.config).expect("a checked configuration is plain data");
