@@ -103,7 +103,7 @@ fn a_film_that_is_made_of_a_run_that_is_over_is_the_one_that_was_made_while_it_w
             assert_eq!(made.frames(&links), live.frames(&links));
         }
     }
-    let events = |recording: &Recording| BTreeSet::from_iter(recording.texts("/events"));
+    let events = |recording: &Recording| BTreeSet::from_iter(recording.events(2));
     assert_eq!(events(&made), events(&live));
 }
 
@@ -165,7 +165,7 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     // The film shows every third generation's champion, and at its end the one that came after the last of them.
     let warning = "WARNING: the champion of island 0 was reported with ";
     assert_eq!(ending.stderr.matches(warning).count(), 12, "{ending:?}");
-    let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
+    let events = Recording::read(&world.path("run/recording.rrd")).events(1);
     let count = |word| events.iter().filter(|event| event.contains(word)).count();
     assert_eq!((count(warning), count(": new champion, ")), (12, 32));
 }
@@ -230,7 +230,7 @@ fn a_recording_that_is_there_is_not_lost_to_a_full_disk() {
 fn a_recording_tells_what_happened() {
     let world = World::new();
     world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
-    let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
+    let events = Recording::read(&world.path("run/recording.rrd")).events(2);
     let count = |word: &str| events.iter().filter(|event| event.contains(word)).count();
     assert!(count("new champion") >= 2, "{events:?}");
     assert_eq!(count(": 2 immigrants"), 2, "{events:?}");
@@ -238,17 +238,19 @@ fn a_recording_tells_what_happened() {
 }
 
 #[test]
-fn two_runs_of_a_seed_have_the_same_film_row_by_row() {
+fn two_runs_of_a_seed_have_the_same_film_row_by_row_and_piece_by_piece() {
     let world = World::new();
     let films = ["a", "b"].map(|name| {
         world.json(&format!("--n 2 --seed 41 --out {name} --quiet --json --clip-every 2 {TINY}"));
-        Recording::read(&world.path(&format!("{name}/recording.rrd"))).rows()
+        Recording::read(&world.path(&format!("{name}/recording.rrd")))
     });
+    assert_eq!(films[0].pieces(), films[1].pieces());
+    let films = films.map(|film| film.rows());
     assert_eq!(films[0].len(), films[1].len());
     for (a, b) in films[0].iter().zip(&films[1]) {
         assert_eq!(a, b);
     }
-    for entity in ["/events", "/family", "/state/island-0", "/islands/1/prints", "/topology"] {
+    for entity in ["/events/0", "/family", "/state/island-0", "/islands/1/prints", "/topology"] {
         assert!(films[0].keys().any(|(path, ..)| path == entity), "{entity}");
     }
 }
@@ -292,6 +294,9 @@ fn a_viewer_is_opened_if_it_is_there_and_of_the_right_version_and_otherwise_said
     assert_eq!((found.code, found.stderr.as_str()), (Some(0), ""), "{found:?}");
     until("the viewer was opened", || world.path("opened").exists());
     until("it was told what", || world.read("opened").trim() == "run/champion.rrd");
+    world.write("bin/rerun", "#!/bin/sh\necho 'rerun-cli 0.36.3'\n[ \"$1\" = --version ]\n");
+    let blind = replay(&bin);
+    assert!(blind.stderr.contains("the viewer ended at once (exit status: 1)"), "{blind:?}");
 }
 
 /// Writes a log of these records instead of the one that is there.

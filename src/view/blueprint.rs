@@ -1,7 +1,7 @@
 //! The arrangement of the viewer.
 
 use super::card::{Program, RunCard};
-use super::{GENERATION, PLAYBACK, ViewError, palette};
+use super::{GENERATION, PLAYBACK, ViewError, palette, race};
 use rerun::blueprint::{
     BarChartView, Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, GraphView, Grid,
     Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
@@ -163,15 +163,8 @@ impl Layout {
         contents.extend((0..lanes).flat_map(|lane| {
             ["ground", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
-        let view = Spatial3DView::new("Race").with_origin("/").with_contents(contents);
-        let (middle, width) = (card.track().middle_y(), card.track().width_m());
-        // The more lanes, the more from above.
-        let above = 0.5 + 0.02 * width.min(20.0);
-        let eye = EyeControls3D::new()
-            .with_position([2.4 - 0.1 * width, middle - 0.7 * width - 3.0, above * width + 2.4])
-            .with_look_target([3.2, middle - 0.04 * width, 0.0])
-            .with_eye_up([0.0, 0.0, 1.0]);
-        self.stage(view, &eye)
+        let view = Spatial3DView::new("Race").with_origin(race::FRAME).with_contents(contents);
+        self.stage(view, &race::eye(card.track()))
     }
 
     fn stage(&mut self, view: Spatial3DView, eye: &EyeControls3D) -> ContainerLike {

@@ -12,6 +12,8 @@ use std::f32::consts::TAU;
 
 /// The width of a lane, in metres.
 const LANE_M: f32 = 3.0;
+/// The height of the distances beside four lanes, in metres.
+const DIGIT_M: f32 = 0.4;
 /// The width of each of many lanes, in metres: it is more important to see them all.
 const NARROW_LANE_M: f32 = 2.0;
 /// So many lanes are many.
@@ -95,6 +97,11 @@ impl Track {
     pub fn width_m(self) -> f32 {
         self.lane_m * self.lanes as f32
     }
+
+    /// The height of the distances beside them, in metres.
+    pub fn digit_m(self) -> f32 {
+        DIGIT_M * (self.width_m() / 12.0).clamp(0.6, 1.8)
+    }
 }
 
 /// A floor of tiles of a metre in the two colours of an island, so many rows of them from `right` on; `light` says
@@ -124,13 +131,13 @@ fn checker(
 
 /// The start line and a line at each metre, across all lanes.
 fn marks(rec: &RecordingStream, track: Track) -> Result<(), ViewError> {
-    let size = (track.width_m() / 12.0).clamp(0.6, 1.8);
+    let size = track.digit_m() / DIGIT_M;
     let edge = track.lane_m / 2.0;
     let ruler = Ruler {
         metres: LANE_AHEAD_M as u32 * 3 / 4,
         left_m: track.lane_y(0) + edge,
         right_m: track.lane_y(track.lanes.saturating_sub(1)) - edge,
-        digit_m: 0.4 * size,
+        digit_m: track.digit_m(),
         line_m: 0.014 * size,
         every: if size > 1.2 { 2 } else { 1 },
     };

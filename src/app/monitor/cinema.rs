@@ -190,6 +190,7 @@ impl Cinema {
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
         let score = pedigree::standing(&self.problem, &champion);
+        let short = pedigree::short(&self.problem, champion.individual.fitness);
         let Champion { generation, individual, .. } = champion;
         let Some((evaluation, trajectory)) = self.simulate(&individual.genome) else {
             return Ok(());
@@ -210,7 +211,7 @@ impl Cinema {
             hue: island,
             generation,
             label: format!("gen {generation} · {score} · {origin}"),
-            short_label: format!("{island} · {score}"),
+            short_label: format!("{island} · {short}"),
             morphology: creature.morphology,
             controller: creature.controller,
             trajectory,
