@@ -18,7 +18,7 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 5;
 const GENERATIONS: u32 = 24;
 const SEED: u64 = 7;
 /// More generations than any run has.
