@@ -13,7 +13,9 @@ and reported how far walkers get in each engine. They are champions of twenty ru
 
 - walkers: 40 generations, one trial a genome;
 - long-walkers: 160 generations, one trial a genome;
-- robust-walkers: 40 generations, four trials a genome: as many generations as the first, and trials as the second.
+- robust-walkers: 40 generations, four trials a genome, of which the worst counts: as many generations as the first,
+  and as many trials as the second;
+- mean-walkers: the same, but that the mean of the four counts.
 
 Exits with 1 if a check fails.
 """
@@ -64,7 +66,7 @@ def main() -> int:
         specimens = genomes_of_the_course(FIXTURES) + random_genomes(islands, arguments.genomes)
         failures = checks.same_bodies(islands, specimens)
         failures += checks.same_motion(islands)
-        for kind in ("walkers", "long-walkers", "robust-walkers"):
+        for kind in ("walkers", "long-walkers", "robust-walkers", "mean-walkers"):
             checks.report_walkers(islands, kind, walkers(FIXTURES / kind))
     for failure in failures:
         print(f"FAILED: {failure}")

@@ -153,6 +153,7 @@ def report_walkers(islands: Islands, kind: str, specimens: list[Specimen]) -> No
     ratios = distances / distances[:, :1]
     _print_row("median", np.median(distances, axis=0))
     _print_row("median ratio", np.median(ratios, axis=0))
+    _print_row("first quartile", np.quantile(ratios, 0.25, axis=0))
     _print_row("least ratio", ratios.min(axis=0))
     _print_row("greatest ratio", ratios.max(axis=0))
     print()
