@@ -141,19 +141,6 @@ impl Config {
         }
     }
 
-    /// Makes sure that creatures are evolved, for a command that is about bodies.
-    ///
-    /// # Errors
-    /// If something else is.
-    pub(super) fn require_creatures(&self, command: &str) -> Result<(), Failure> {
-        match self.problem {
-            Kind::Creatures => Ok(()),
-            other => Err(Failure::usage(format!(
-                "{command} shows creatures, and this is a run of {other}, whose genomes have no bodies"
-            ))),
-        }
-    }
-
     /// Makes sure that the problem can have so many variables or bits.
     pub(super) fn check_dimensions(&self) -> Result<(), Failure> {
         let Self { problem, dimensions, instance, block, .. } = *self;
@@ -229,5 +216,101 @@ impl TryFrom<String> for Kind {
 impl From<Kind> for String {
     fn from(kind: Kind) -> String {
         kind.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evolution::Variation;
+    use crate::rng::{Purpose, Source};
+
+    fn usual(problem: Kind) -> Config {
+        Config::default_for(Wish { problem: Some(problem), dimensions: None })
+    }
+
+    #[test]
+    fn the_defaults_of_every_problem_are_sound_and_survive_their_file() {
+        for problem in Kind::all() {
+            let config = Config { seed: Some(7), ..usual(problem) };
+            config.check().unwrap_or_else(|failure| panic!("{problem}: {failure}"));
+            let text = config.to_toml();
+            assert_eq!(Config::parse(&text).as_ref(), Ok(&config), "{problem}");
+            let is_said = |name: &&str| text.lines().any(|line| line.starts_with(*name));
+            assert_eq!(problem.useless().into_iter().find(is_said), None, "{problem}: {text}");
+            assert_eq!(Config::parse(&format!("problem = \"{problem}\"")), Ok(usual(problem)));
+            assert_eq!(problem.to_string().parse(), Ok(problem));
+        }
+    }
+
+    #[test]
+    fn every_name_of_a_setting_that_means_nothing_to_a_problem_is_that_of_a_setting() {
+        let names = Table::try_from(Config::default()).expect("it is plain data");
+        for name in Kind::all().into_iter().flat_map(Kind::useless) {
+            // Scales are only said where there are some.
+            assert!(names.contains_key(name) || name == "scales", "{name}");
+        }
+    }
+
+    #[test]
+    fn defaults_follow_the_dimensions_and_what_is_said_wins_over_them() {
+        let config = Config::parse("problem = \"sphere\"\ndimensions = 8\npopulation = 9");
+        let config = config.expect("it is sound");
+        assert_eq!((config.genes, config.max_genes, config.point_rate), (8, 8, 0.125));
+        assert_eq!((config.population, config.generations), (9, 1_000));
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_is_complained_of_by_its_line() {
+        let complaint = |text| Config::parse(text).unwrap_err();
+        assert!(complaint("seed = 1\nproblem = \"cube\"").starts_with("line 2: unknown problem"));
+        assert!(complaint("problem = \"sphere\"\nsize = 3").starts_with("line 2: "));
+        assert!(complaint("dimensions = -1").starts_with("line 1: "));
+    }
+
+    #[test]
+    fn genomes_of_every_problem_are_read_as_they_were_written_and_none_has_another_length() {
+        struct Writer;
+        impl Visitor for Writer {
+            type Output = ();
+
+            fn visit<P: Subject>(self, problem: P) {
+                let source = Source { seed: 1, island: 0 };
+                let mut rng = source.stream(0, 0, Purpose::Genesis);
+                let genome = problem.random_genome(&mut rng);
+                let mut file = Vec::new();
+                problem.write_genome(&genome, &mut file).expect("memory takes everything");
+                assert_eq!(problem.read_genome(&file, &[]), Ok(genome));
+                assert_eq!(problem.body(&[]), None);
+            }
+        }
+        Kind::all().into_iter().for_each(|problem| usual(problem).visit(Writer));
+    }
+
+    #[test]
+    fn offspring_are_as_long_as_their_parents_where_genomes_are_of_one_length() {
+        struct Breeder<'a>(&'a Config);
+        impl Visitor for Breeder<'_> {
+            type Output = ();
+
+            fn visit<P: Subject>(self, problem: P) {
+                let variation = Variation {
+                    grow_rate: 1.0,
+                    shrink_rate: 1.0,
+                    ..self.0.archipelago().strategy.variation
+                };
+                let source = Source { seed: 1, island: 0 };
+                let mut rng = source.stream(0, 0, Purpose::Crossover);
+                let [a, b] = [0; 2].map(|_| problem.random_genome(&mut rng));
+                for _ in 0..50 {
+                    let mut child = problem.crossover(&a, &b, &variation, &mut rng);
+                    problem.mutate(&mut child, &variation, &mut rng);
+                    assert_eq!(child.len(), self.0.dimensions);
+                }
+            }
+        }
+        for problem in Kind::all().into_iter().filter(|kind| *kind != Kind::Creatures) {
+            usual(problem).visit(Breeder(&usual(problem)));
+        }
     }
 }

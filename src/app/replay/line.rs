@@ -1,5 +1,6 @@
 //! The creatures of a run, one after another.
 
+use super::super::catalogue::Kind;
 use super::super::cli::ReplayArgs;
 use super::super::config::Config;
 use super::super::console::{print, say};
@@ -23,7 +24,7 @@ use std::path::{Path, PathBuf};
 pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
     let dir = RunDir::at(dir);
     let config = Config::of_run(&dir)?;
-    config.require_creatures("replay")?;
+    require_creatures(&config)?;
     let problem = config.locomotion();
     let studio = Studio::new(args, problem)?;
     let most = args.clips as usize;
@@ -41,6 +42,15 @@ pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
     let is_as_scored = args.seconds.is_none() && studio.problem == problem;
     Reel { studio, line, herald, family, is_as_scored }.record(args, &dir, &out)?;
     Ok(out)
+}
+
+fn require_creatures(config: &Config) -> Result<(), Failure> {
+    match config.problem {
+        Kind::Creatures => Ok(()),
+        other => Err(Failure::usage(format!(
+            "replay shows creatures, and this is a run of {other}, whose genomes have no bodies"
+        ))),
+    }
 }
 
 /// The creatures of a film.

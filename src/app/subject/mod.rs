@@ -1,4 +1,5 @@
-//! What the program has to know of a problem beyond evolving it.
+//! What the program has to know of a problem beyond evolving it. Who implements this for a problem of their own, and
+//! names it in [the catalogue](super::catalogue), has it on islands that are processes, saved, verified and watched.
 
 mod creatures;
 mod vectors;
