@@ -7,7 +7,7 @@ use super::super::pedigree::{self, Herald};
 use super::super::result;
 use super::ancestry::Ancestry;
 use super::logs::Sighting;
-use crate::archipelago::Champion;
+use crate::archipelago::{Champion, ExchangeMode};
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Outcome, Problem};
 use crate::problems::Locomotion;
@@ -29,6 +29,8 @@ pub struct Cinema {
     ancestry: Ancestry,
     /// Whom each island receives from.
     sources: Vec<Vec<u32>>,
+    /// What to say before the sources: where nobody waits, not all of them have sent something.
+    among: &'static str,
     has_shown: bool,
 }
 
@@ -64,8 +66,19 @@ impl Cinema {
         let reigns_since = vec![0; islands as usize];
         let graph = config.archipelago().graph();
         let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
+        let among = if config.exchange == ExchangeMode::Async { "some of " } else { "" };
         let has_shown = false;
-        Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
+        Ok(Self {
+            problem,
+            herald,
+            recorder,
+            unfilmed,
+            reigns_since,
+            ancestry,
+            sources,
+            among,
+            has_shown,
+        })
     }
 
     /// What to give to a viewer to watch live.
@@ -94,7 +107,8 @@ impl Cinema {
             let sources: Vec<String> =
                 self.sources[island as usize].iter().map(u32::to_string).collect();
             let news = format!(
-                "migration {} → {island}: {} immigrants",
+                "migration {}{} → {island}: {} immigrants",
+                self.among,
                 sources.join(", "),
                 report.immigrants
             );
@@ -262,4 +276,20 @@ fn description(config: &Config) -> String {
         config.seed.unwrap_or_default(),
         Config { launch: None, threads: None, ..config.clone() }.to_toml()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::archipelago::Topology;
+
+    #[test]
+    fn the_card_of_a_run_has_every_edge_of_its_topology() {
+        for topology in Topology::ALL {
+            let config = Config { islands: 6, seed: Some(7), topology, ..Config::default() };
+            let (edges, graph) = (run_card(&config, None).topology_edges, topology.graph(6, 7));
+            assert_eq!(edges.len(), graph.edges(), "{topology}");
+            assert!(edges.iter().all(|(from, to)| graph.out_neighbours(*from).contains(to)));
+        }
+    }
 }
