@@ -311,7 +311,8 @@ pub struct VerifyArgs {
     /// Folder of a run that is not under way
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
-    /// Simulate the newest populations and all migrants again too, not only the champions
+    /// Simulate the newest populations and all migrants again too, not only the champions; and evolve a run of
+    /// --exchange async again from what its islands recorded, to the same digest
     #[arg(long)]
     pub thorough: bool,
     /// Threads [default: all cores]

@@ -8,7 +8,7 @@ use super::super::result;
 use super::super::subject::{Shot, Subject};
 use super::ancestry::Ancestry;
 use super::logs::Sighting;
-use crate::archipelago::Champion;
+use crate::archipelago::{Champion, ExchangeMode};
 use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
 use std::path::Path;
 
@@ -25,6 +25,8 @@ pub struct Cinema<P: Subject> {
     ancestry: Ancestry<P>,
     /// Whom each island receives from.
     sources: Vec<Vec<u32>>,
+    /// What to say before the sources: where nobody waits, not all of them have sent something.
+    among: &'static str,
     has_shown: bool,
 }
 
@@ -61,8 +63,19 @@ impl<P: Subject> Cinema<P> {
         let reigns_since = vec![0; islands as usize];
         let graph = config.archipelago().graph();
         let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
+        let among = if config.exchange == ExchangeMode::Async { "some of " } else { "" };
         let has_shown = false;
-        Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
+        Ok(Self {
+            problem,
+            herald,
+            recorder,
+            unfilmed,
+            reigns_since,
+            ancestry,
+            sources,
+            among,
+            has_shown,
+        })
     }
 
     /// The problem that is solved.
@@ -96,7 +109,8 @@ impl<P: Subject> Cinema<P> {
             let sources: Vec<String> =
                 self.sources[island as usize].iter().map(u32::to_string).collect();
             let news = format!(
-                "migration {} → {island}: {} immigrants",
+                "migration {}{} → {island}: {} immigrants",
+                self.among,
                 sources.join(", "),
                 report.immigrants
             );
@@ -252,4 +266,23 @@ fn description<P: Subject>(config: &Config, problem: &P) -> String {
         config.seed.unwrap_or_default(),
         Config { launch: None, threads: None, ..config.clone() }.to_toml()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::archipelago::Topology;
+
+    #[test]
+    fn the_card_of_a_run_has_every_edge_of_its_topology() {
+        for topology in Topology::ALL {
+            let config = Config { islands: 6, seed: Some(7), topology, ..Config::default() };
+            let (edges, graph) = (
+                run_card(&config, &config.locomotion(), None).topology_edges,
+                topology.graph(6, 7),
+            );
+            assert_eq!(edges.len(), graph.edges(), "{topology}");
+            assert!(edges.iter().all(|(from, to)| graph.out_neighbours(*from).contains(to)));
+        }
+    }
 }
