@@ -28,6 +28,7 @@ mod replay;
 mod resume;
 mod robustness;
 mod run;
+mod search;
 mod support;
 mod survival;
 mod tidy;

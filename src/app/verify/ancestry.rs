@@ -6,6 +6,7 @@ use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
 use crate::archipelago::Lineage;
+use crate::archipelago::lineage::Gap;
 use crate::evolution::Individual;
 use crate::store::RunDir;
 
@@ -42,6 +43,9 @@ pub fn check<P: Subject>(
     }
     let ids: Vec<_> = champions().map(|(_, individual)| individual.id).collect();
     match lineage.genomes(&ids, &problem, &terms.config.archipelago()) {
+        Err(Gap::Drawn(_)) => {
+            check.note("not checked: who is drawn from a distribution has no parents")
+        }
         Err(gap) => check.damaged(format_args!("{}: {gap}", dir.path().display())),
         Ok(genomes) => {
             for (island, Individual { id, genome, .. }) in champions() {
