@@ -29,6 +29,8 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// The rocks of a terrain, which no run's seed decides.
+    Terrain = 12,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::seeds::SeedGenomes;
+use super::terrains::KeptTerrain;
 use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
 use crate::evolution::{Selection, Strategy, Variation};
@@ -98,6 +99,9 @@ pub struct Config {
     /// The genomes that the islands begin with, if not all are random: the run's folder keeps them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed_genomes: Option<SeedGenomes>,
+    /// What creatures stand on, if it is another ground than the task's: the run's folder keeps it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<KeptTerrain>,
     /// What launched the run: written by the program, ignored when it is read for a new run.
     pub launch: Option<Launch>,
 }
@@ -141,6 +145,7 @@ impl Default for Config {
             threads: None,
             scales: Scales::NONE,
             seed_genomes: None,
+            terrain: None,
             launch: None,
         }
     }
@@ -176,7 +181,8 @@ impl Config {
         if !dir.config().exists() {
             return Err(Failure::no_run(dir));
         }
-        let config = Self::read(&dir.config())?;
+        let mut config = Self::read(&dir.config())?;
+        config.read_terrain(dir)?;
         config.check()?;
         match config.is_launched() {
             true => Ok(config),
@@ -185,6 +191,14 @@ impl Config {
                 dir.config().display()
             ))),
         }
+    }
+
+    /// Reads the terrain that a run's folder keeps, if the configuration says that there is one.
+    ///
+    /// # Errors
+    /// If it is not there, or not what the configuration says.
+    pub fn read_terrain(&mut self, dir: &RunDir) -> Result<(), Failure> {
+        self.terrain.as_mut().map_or(Ok(()), |terrain| terrain.read(dir))
     }
 
     /// The file that says the same.
@@ -200,6 +214,7 @@ impl Config {
         self.check_ranges()?;
         self.check_genes()?;
         self.check_migrants()?;
+        self.terrain.as_ref().map_or(Ok(()), KeptTerrain::check)?;
         self.scales.check(self.profile).map_err(|error| Failure::usage(error.to_string()))?;
         match self.seed {
             Some(seed) if seed > SEED_MAX => {
@@ -333,6 +348,7 @@ impl Config {
             genes: self.genes,
             links_max: self.max_links,
             engine: self.engine,
+            terrain: self.terrain.as_ref().and_then(|it| it.terrain),
         }
     }
 }

@@ -172,12 +172,13 @@ impl TrialArgs {
     /// The problem that a genome is tried with.
     ///
     /// # Errors
-    /// If more links are asked for than may be, or scales that the profile has not.
+    /// If more links are asked for than may be, or scales that the profile has not, or the terrain cannot be used.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, max_links } = self;
+        let Self { task, read, engine, max_links, terrain } = self;
         let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
         let Reading { profile, scales } = reading;
-        let (task, engine) = (*task, *engine);
-        Ok(Locomotion { profile, scales, task, engine, links_max, ..Locomotion::default() })
+        let (task, engine, terrain) = (*task, *engine, terrain.read()?);
+        let usual = Locomotion::default();
+        Ok(Locomotion { profile, scales, task, engine, links_max, terrain, ..usual })
     }
 }

@@ -22,8 +22,8 @@ pub struct SettingArgs {
     /// Individuals on each island [default: 24]
     #[arg(long, value_name = "P")]
     pub population: Option<usize>,
-    /// What creatures have to do: walk (get away), travel (keep moving) or course (as the course
-    /// program measures) [default: walk]
+    /// What creatures have to do: walk (get away), travel (keep moving), course (as the course
+    /// program measures) or climb (up its mountain) [default: walk]
     #[arg(long)]
     pub task: Option<Task>,
     /// How genes are read: native, lecture or coursework [default: native]
@@ -116,6 +116,7 @@ impl SettingArgs {
             threads: self.threads.or(config.threads),
             scales: config.scales,
             seed_genomes: config.seed_genomes,
+            terrain: config.terrain,
             launch: None,
         }
     }

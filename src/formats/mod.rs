@@ -18,6 +18,7 @@ pub mod mjcf;
 pub mod motion;
 mod rotation;
 pub mod stl;
+pub mod terrain;
 pub mod urdf;
 mod xml;
 

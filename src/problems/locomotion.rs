@@ -6,7 +6,8 @@ use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales};
 use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
 use crate::rng::Stream;
-use crate::simulation::{self, Engine, Measurement, Start, Trajectory, Trial};
+use crate::simulation::terrain::mountain;
+use crate::simulation::{self, Engine, Ground, Measurement, Start, Terrain, Trajectory, Trial};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -25,11 +26,14 @@ pub enum Task {
     /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
     /// It counts the fall, and is here for comparison.
     Course,
+    /// To get up the course's mountain, or another terrain: the height that its lowest point gained and kept:
+    /// [`progress::climbed_m`].
+    Climb,
 }
 
 impl Task {
     /// Every task.
-    pub const ALL: [Task; 3] = [Task::Walk, Task::Travel, Task::Course];
+    pub const ALL: [Task; 4] = [Task::Walk, Task::Travel, Task::Course, Task::Climb];
 
     /// How bodies are tried.
     pub fn trial(self) -> Trial {
@@ -40,6 +44,7 @@ impl Task {
                 // bodies eight times as much momentum out of nothing, half of what the ledger refuses.
                 steps_per_s: 240,
                 gravity_m_s2: 9.81,
+                ground: Ground::Plane,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
                 start: Start::LeaningAt(0.1),
                 settle_s: 0.5,
@@ -49,12 +54,14 @@ impl Task {
             Task::Course => Trial {
                 steps_per_s: 240,
                 gravity_m_s2: 10.0,
+                ground: Ground::Plane,
                 start: Start::RootAt(2.5),
                 settle_s: 0.0,
                 scored_s: 10.0,
                 // The course refuses nobody, and a comparison must not either.
                 keeps_ledger: false,
             },
+            Task::Climb => Task::Walk.trial().on(mountain()),
         }
     }
 
@@ -63,6 +70,7 @@ impl Task {
         match self {
             Task::Walk => progress::away_m(&measured.track_m),
             Task::Travel => progress::travelled_m(&measured.track_m, measured.extent_m),
+            Task::Climb => progress::climbed_m(&measured.heights_m),
             Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
         }
     }
@@ -74,6 +82,7 @@ impl std::fmt::Display for Task {
             Task::Walk => "walk",
             Task::Travel => "travel",
             Task::Course => "course",
+            Task::Climb => "climb",
         })
     }
 }
@@ -101,6 +110,8 @@ pub struct Locomotion {
     pub links_max: usize,
     /// What moves the bodies.
     pub engine: Engine,
+    /// What they stand on, if it is another ground than the task's.
+    pub terrain: Option<&'static Terrain>,
 }
 
 impl Default for Locomotion {
@@ -118,7 +129,14 @@ impl Locomotion {
         genes: 4,
         links_max: 32,
         engine: Engine::Rapier,
+        terrain: None,
     };
+
+    /// How bodies are tried.
+    pub fn trial(&self) -> Trial {
+        let trial = self.task.trial();
+        self.terrain.map_or(trial, |terrain| trial.on(terrain))
+    }
 
     /// How genes are read.
     pub fn reading(&self) -> Reading {
@@ -148,7 +166,7 @@ impl Locomotion {
 
     /// Evaluates a body and films it.
     pub fn film_body(&self, creature: &Creature) -> (Evaluation, Trajectory) {
-        let (result, trajectory) = simulation::film(creature, &self.task.trial(), self.engine);
+        let (result, trajectory) = simulation::film(creature, &self.trial(), self.engine);
         (self.evaluation(result), trajectory)
     }
 
@@ -161,7 +179,7 @@ impl Locomotion {
             return Err(Outcome::TooLarge);
         }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        simulation::simulate(&creature, &self.task.trial(), self.engine)
+        simulation::simulate(&creature, &self.trial(), self.engine)
     }
 
     fn evaluation(&self, result: Result<Measurement, Outcome>) -> Evaluation {
@@ -225,7 +243,7 @@ impl Problem for Locomotion {
         // Whatever evaluating a genome contains must not come out here.
         let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
-        links as u64 * u64::from(self.task.trial().steps())
+        links as u64 * u64::from(self.trial().steps())
     }
 
     fn unit(&self) -> &'static str {

@@ -1,6 +1,7 @@
 //! How a body is tried, and the constants of the world that it is tried in.
 
 use super::TRACK_SAMPLE_S;
+use super::terrain::{Ground, Terrain};
 use std::f64::consts::TAU;
 
 /// How a body is tried.
@@ -10,6 +11,8 @@ pub struct Trial {
     pub steps_per_s: u32,
     /// Acceleration of gravity, downwards, in m/s².
     pub gravity_m_s2: f64,
+    /// What the body stands on.
+    pub ground: Ground,
     /// Where the body begins.
     pub start: Start,
     /// A round of settling before scoring, in seconds; motors hold still meanwhile. There are as many rounds as it
@@ -43,6 +46,11 @@ pub const FRICTION: f64 = 0.5;
 pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
+    /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
+    pub fn on(self, terrain: &'static Terrain) -> Self {
+        Self { ground: Ground::Terrain(terrain), keeps_ledger: false, ..self }
+    }
+
     /// The simulated time after a number of steps, in seconds.
     pub fn time_s(&self, step: u32) -> f64 {
         f64::from(step) / f64::from(self.steps_per_s)

@@ -2,6 +2,7 @@
 
 use super::card::{Program, RunCard};
 use super::{GENERATION, PLAYBACK, ViewError, palette};
+use crate::simulation::{Ground, Terrain};
 use rerun::blueprint::{
     BarChartView, Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, GraphView, Grid,
     Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
@@ -80,6 +81,31 @@ fn companion() -> EyeControls3D {
         .with_eye_up([0.0, 0.0, 1.0])
 }
 
+/// An eye to the right of all lanes.
+fn marshal(card: &RunCard) -> EyeControls3D {
+    let (middle, width) = (card.track().middle_y(), card.track().width_m());
+    // The more lanes, the more from above.
+    let above = 0.5 + 0.02 * width.min(20.0);
+    EyeControls3D::new()
+        .with_position([2.4 - 0.1 * width, middle - 0.7 * width - 3.0, above * width + 2.4])
+        .with_look_target([3.2, middle - 0.04 * width, 0.0])
+        .with_eye_up([0.0, 0.0, 1.0])
+}
+
+/// An eye outside of a terrain, on the side where creatures begin, that sees them and the middle.
+fn visitor(terrain: &Terrain) -> EyeControls3D {
+    let half_m = terrain.half_m().cast::<f32>();
+    let far_m = half_m.max();
+    EyeControls3D::new()
+        .with_position([
+            0.75 * half_m.x,
+            -half_m.y - 0.5 * far_m,
+            terrain.wall_top_m() as f32 + 0.45 * far_m,
+        ])
+        .with_look_target([0.0, -0.35 * half_m.y, terrain.height_m(0.0, 0.0) as f32 * 0.25])
+        .with_eye_up([0.0, 0.0, 1.0])
+}
+
 /// From the beginning to the end, wherever the film is.
 fn whole_film() -> TimeAxis {
     TimeAxis::new().with_view_range(TimeRange {
@@ -150,7 +176,7 @@ impl Layout {
     fn line(&mut self, card: &RunCard) -> ContainerLike {
         let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/lanes/**".to_owned()];
         contents.extend((0..card.lane_count()).flat_map(|lane| {
-            ["ground", "follow/flag"].map(|name| format!("- /islands/{lane}/{name}"))
+            ["ground/**", "follow/flag"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
         let view = Spatial3DView::new("One by one").with_origin("line/follow");
         self.stage(view.with_contents(contents), &companion())
@@ -161,16 +187,13 @@ impl Layout {
         let lanes = card.lane_count();
         let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/**".to_owned()];
         contents.extend((0..lanes).flat_map(|lane| {
-            ["ground", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
+            ["ground/**", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
         let view = Spatial3DView::new("Race").with_origin("/").with_contents(contents);
-        let (middle, width) = (card.track().middle_y(), card.track().width_m());
-        // The more lanes, the more from above.
-        let above = 0.5 + 0.02 * width.min(20.0);
-        let eye = EyeControls3D::new()
-            .with_position([2.4 - 0.1 * width, middle - 0.7 * width - 3.0, above * width + 2.4])
-            .with_look_target([3.2, middle - 0.04 * width, 0.0])
-            .with_eye_up([0.0, 0.0, 1.0]);
+        let eye = match card.ground {
+            Ground::Plane => marshal(card),
+            Ground::Terrain(terrain) => visitor(terrain),
+        };
         self.stage(view, &eye)
     }
 

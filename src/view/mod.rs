@@ -53,6 +53,7 @@ mod figures;
 mod file;
 pub mod film;
 mod heading;
+mod landscape;
 mod limbs;
 pub mod live;
 pub mod palette;

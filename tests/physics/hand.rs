@@ -17,7 +17,7 @@
 use islands::creature::{
     Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
-use islands::simulation::{self, Engine, Start, Trial};
+use islands::simulation::{self, Engine, Ground, Start, Trial};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 
@@ -102,6 +102,7 @@ impl Body {
         Trial {
             steps_per_s: 240,
             gravity_m_s2: 10.0,
+            ground: Ground::Plane,
             start: Start::RootAt(self.z_lift),
             settle_s: 0.0,
             scored_s: 10.0,

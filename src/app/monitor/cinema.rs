@@ -11,7 +11,7 @@ use crate::archipelago::Champion;
 use crate::creature::Gene;
 use crate::evolution::{Evaluation, Outcome, Problem};
 use crate::problems::Locomotion;
-use crate::simulation::Trajectory;
+use crate::simulation::{Ground, Trajectory};
 use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -225,6 +225,7 @@ impl Cinema {
             times_s: Vec::new(),
             poses: Vec::new(),
             scoring_from_s: 0.0,
+            ground: Ground::Plane,
         };
         match filmed {
             Ok(film) => film.ok(),
@@ -239,7 +240,7 @@ fn run_card(config: &Config, clip_every: Option<u32>) -> RunCard {
     let edges = (0..config.islands).flat_map(|island| {
         archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
     });
-    let trial = config.task.trial();
+    let trial = config.problem().trial();
     let clip_every = clip_every.or(config.clip_every);
     RunCard {
         program: Program::Run,
@@ -249,6 +250,7 @@ fn run_card(config: &Config, clip_every: Option<u32>) -> RunCard {
         topology_edges: edges.collect(),
         has_family: true,
         pace: Pace::for_run(config.generations, clip_every, trial.settle_s + trial.scored_s),
+        ground: trial.ground,
     }
 }
 

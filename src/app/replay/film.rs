@@ -49,9 +49,10 @@ impl Studio {
             scales,
             engine: args.engine.unwrap_or(problem.engine),
             links_max: links_max(args.max_links.unwrap_or(problem.links_max))?,
+            terrain: args.terrain.read()?.or(problem.terrain),
             ..problem
         };
-        let usual = problem.task.trial();
+        let usual = problem.trial();
         let trial = Trial { scored_s: args.seconds.unwrap_or(usual.scored_s), ..usual };
         Ok(Self { problem, trial })
     }

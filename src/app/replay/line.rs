@@ -107,6 +107,7 @@ impl Reel {
             topology_edges: Vec::new(),
             has_family: !self.family.line.is_empty(),
             pace: Pace { slot_s: self.studio.clip_s(), generations_per_slot: 1 },
+            ground: self.studio.trial.ground,
         }
     }
 }

@@ -19,7 +19,7 @@ use super::config::{self, Config};
 use super::console::print;
 use super::kinship::Ear;
 use super::result::{self, Summary};
-use super::seeds;
+use super::{seeds, terrains};
 use crate::creature::Gene;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
@@ -49,6 +49,7 @@ pub fn run(args: &RunArgs) -> Result<(), Failure> {
         Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
     })?;
     seeds::keep(&dir, &founders)?;
+    terrains::keep(&dir, &config)?;
     write_config(&dir, &config)?;
     claim.make_folders(config.islands)?;
     Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
@@ -137,6 +138,7 @@ fn resolve(args: &RunArgs) -> Result<(Config, Vec<Vec<Gene>>), Failure> {
     if !args.changes.scales.is_empty() {
         config.scales = args.changes.scales.iter().cloned().collect();
     }
+    terrains::find(&mut config, &args.terrain, args.config.as_deref())?;
     config.check()?;
     let dropped = &args.changes.drop_columns;
     let founders = seeds::find(&mut config, &args.seed_genomes, dropped, args.config.as_deref())?;
@@ -167,6 +169,12 @@ fn run_dir(out: Option<&Path>, config: &Config) -> RunDir {
     )
 }
 
+/// What of a command says on which terrain a run was, if it kept one.
+fn terrain_flag(run_dir: &Path) -> String {
+    let kept = RunDir::at(run_dir).terrain();
+    if kept.exists() { format!(" --terrain {}", kept.display()) } else { String::new() }
+}
+
 fn entropy() -> Result<u64, Failure> {
     rand::rngs::SysRng
         .try_next_u64()
@@ -186,7 +194,7 @@ fn show(summary: &Summary) {
     print(&format!(
         "best     {}, island {}\nfound in {} evaluations, {:.1} a second; {} failed\n\
          reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}\n\
-         film     islands replay {} --task {} --profile {} --out champion.rrd",
+         film     islands replay {} --task {} --profile {}{} --out champion.rrd",
         summary.best,
         summary.best_island,
         summary.evaluations,
@@ -198,6 +206,7 @@ fn show(summary: &Summary) {
         summary.best_genome.display(),
         summary.task,
         summary.profile,
+        terrain_flag(&summary.run_dir),
     ));
     if let Some(recording) = &summary.recording {
         print(&format!("view     rerun {}", recording.display()));

@@ -76,7 +76,7 @@ fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
             Err(Failure::no_run(dir))
         }
         Err(error) => Ok(Err(error.to_string())),
-        Ok(text) => Ok(launched(&text)
+        Ok(text) => Ok(launched(&text, dir)
             .map_err(|reason| format!("{} is damaged: {reason}", dir.config().display()))),
     }
 }
@@ -94,8 +94,9 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 }
 
 /// The configuration of a run that was launched.
-fn launched(text: &str) -> Result<Config, String> {
-    let config = Config::parse(text)?;
+fn launched(text: &str, dir: &RunDir) -> Result<Config, String> {
+    let mut config = Config::parse(text)?;
+    config.read_terrain(dir).map_err(|failure| failure.message)?;
     config.check().map_err(|failure| failure.message)?;
     if !config.is_launched() {
         return Err("it names no seed or no launch, as that of every run does".to_owned());

@@ -1,5 +1,6 @@
 //! The stepper against the textbook: identities that hold between its algorithms and others for the same thing.
 
+use super::super::terrain::Ground;
 use super::super::trial::Start;
 use super::*;
 use crate::creature::gene::PARAMETER_COUNT;
@@ -11,6 +12,7 @@ use rand_chacha::ChaCha8Rng;
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
     gravity_m_s2: 9.81,
+    ground: Ground::Plane,
     start: Start::LowestAt(0.1),
     settle_s: 0.0,
     scored_s: 1.0,

@@ -12,7 +12,9 @@ mod lab;
 mod ledger;
 mod pendulum;
 mod sliding;
+mod slopes;
 
+use super::terrain::Ground;
 use super::trial::{Start, Trial};
 
 /// Acceleration of gravity in these tests, in m/s².
@@ -22,6 +24,7 @@ const GRAVITY_M_S2: f64 = 10.0;
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
     gravity_m_s2: GRAVITY_M_S2,
+    ground: Ground::Plane,
     start: Start::LowestAt(0.0),
     settle_s: 0.0,
     scored_s: 0.0,
