@@ -27,7 +27,7 @@ pub struct TerrainArgs {
     /// PNG, a mesh's own]
     #[arg(long, value_name = "M", requires = "terrain")]
     pub terrain_height: Option<f64>,
-    /// Where on it creatures begin, in metres east and north of its middle [default: four fifths of the way to the
+    /// Where on it creatures begin, in metres east and north of its middle [default: seven tenths of the way to the
     /// southern wall]
     #[arg(long, value_name = "X,Y", requires = "terrain", allow_hyphen_values = true)]
     pub terrain_start: Option<Place>,

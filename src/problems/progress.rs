@@ -126,8 +126,47 @@ mod tests {
         assert!(away_m(&trembling) <= 0.8);
     }
 
+    /// Heights of 81 moments.
+    fn heights(at: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..81).map(|i| at(f64::from(i) * 0.1)).collect()
+    }
+
+    #[test]
+    fn a_steady_climb_is_worth_its_height_wherever_it_began() {
+        for start in [-3.0, 0.0, 4.0] {
+            assert_near(climbed_m(&heights(|t| start + 0.2 * t)), 1.6);
+        }
+    }
+
+    #[test]
+    fn height_that_is_not_kept_is_worth_nothing() {
+        assert_near(climbed_m(&heights(|t| t.min(8.0 - t))), 0.0);
+        assert_near(climbed_m(&heights(|t| -0.3 * t)), 0.0);
+        // What slid back halfway, and was climbed again, counts once.
+        let twice = heights(|t| if t < 4.0 { 0.2 * t } else { 0.2 * t - 0.4 });
+        assert_near(climbed_m(&twice), 0.8);
+    }
+
+    #[test]
+    fn one_event_is_no_climb_whenever_it_comes() {
+        for start in 0..=80 {
+            let start = 0.1 * f64::from(start);
+            // A limb that is drawn in, a fall uphill, a throw: over within four seconds.
+            assert_near(climbed_m(&heights(|t| ((t - start) / 4.0).clamp(0.0, 1.0))), 0.0);
+        }
+        // Who leaps again and again, and is in the air at the end.
+        assert!(climbed_m(&heights(|t| libm::sin(t * 1.9).abs())) < 0.03);
+    }
+
+    #[test]
+    fn a_climb_of_hops_is_worth_the_height_that_lasts() {
+        let hops = heights(|t| 0.2 * t + 0.3 * libm::sin(9.0 * t).abs());
+        let climbed = climbed_m(&hops);
+        assert!((1.3..1.9).contains(&climbed), "{climbed}");
+    }
+
     #[test]
     fn an_empty_track_is_worth_nothing() {
-        assert_eq!((away_m(&[]), travelled_m(&[], 1.0)), (0.0, 0.0));
+        assert_eq!((away_m(&[]), travelled_m(&[], 1.0), climbed_m(&[])), (0.0, 0.0, 0.0));
     }
 }

@@ -39,16 +39,21 @@ pub enum Start {
 /// (a tower on its point, a wheel with its weight on top) comes down while it settles, not while it is scored.
 pub const LEAN_RAD: f64 = TAU / 72.0;
 
-/// Friction of the ground and of every link; their product acts between them. From the course.
+/// Friction of a plane and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
 
-/// The coefficient of friction between the ground and a link.
+/// The coefficient of friction between a plane and a link.
 pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
     /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
     pub fn on(self, terrain: &'static Terrain) -> Self {
         Self { ground: Ground::Terrain(terrain), keeps_ledger: false, ..self }
+    }
+
+    /// The coefficient of friction between the ground and a link.
+    pub fn grip(&self) -> f64 {
+        GRIP * self.ground.roughness()
     }
 
     /// The simulated time after a number of steps, in seconds.

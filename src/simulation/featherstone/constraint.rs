@@ -4,15 +4,11 @@
 //! root only. Rows are of like size whatever the masses are, so single precision carries them: they look for a
 //! small change of velocities that are known in double precision.
 
-use super::super::trial;
 use super::contact::{Facing, Level, Touch};
 use super::factor::{Factor, inverse};
 use super::spatial::Spatial;
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// The coefficient of friction between the ground and a link.
-const GRIP: f32 = trial::GRIP as f32;
 
 /// The share of a penetration that a step takes back (Baumgarte 1972).
 const PUSH_SHARE: f64 = 0.2;
@@ -196,9 +192,9 @@ impl<F: Facing> Contact<F> {
 
     /// Corrects the impulse, and returns the square of about the velocity that was wrong.
     #[inline(always)]
-    pub fn improve(&mut self, change: &mut Change, entries: &[Entry<4>]) -> f32 {
+    pub fn improve(&mut self, change: &mut Change, entries: &[Entry<4>], grip: f32) -> f32 {
         let velocity_m_s = self.velocity(change, entries);
-        let [x, y, z] = self.correct(velocity_m_s);
+        let [x, y, z] = self.correct(velocity_m_s, grip);
         self.push([x, y, z], change, entries);
         (x * x + y * y + z * z) * (self.square * self.square)
     }
@@ -239,7 +235,7 @@ impl<F: Facing> Contact<F> {
     /// Finds a better impulse at a velocity, and returns what is new: the normal impulse first, then friction,
     /// which holds the point if it can and slows it if not.
     #[inline(always)]
-    fn correct(&mut self, [mut x, mut y, z, _]: [f32; 4]) -> [f32; 3] {
+    fn correct(&mut self, [mut x, mut y, z, _]: [f32; 4], grip: f32) -> [f32; 3] {
         let [old_x, old_y, old_z] = self.impulse_ns;
         let normal = (old_z - z * self.inverse_normal).max(0.0);
         let more = normal - old_z;
@@ -247,7 +243,7 @@ impl<F: Facing> Contact<F> {
         y += self.coupling[1] * more;
         let [xx, yy, xy] = self.inverse_tangent;
         let hold = [old_x - (xx * x + xy * y), old_y - (xy * x + yy * y)];
-        let most = GRIP * normal;
+        let most = grip * normal;
         let [new_x, new_y] = if hold[0] * hold[0] + hold[1] * hold[1] <= most * most {
             hold
         } else {

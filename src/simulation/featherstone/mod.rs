@@ -139,7 +139,7 @@ impl<G: Footing> FeatherstoneWorld<G> {
             touches: Vec::with_capacity(touches),
             factor: Factor::new(&model),
             whitened: Whitened { root: [0.0; 6], hinges: vec![0.0; links] },
-            solver: Solver::new(links, touches),
+            solver: Solver::new(links, touches, trial.grip()),
             model,
         }
     }

@@ -20,6 +20,8 @@ const SWEEPS_MAX: usize = 30;
 /// The constraints of a step.
 #[derive(Debug, Clone)]
 pub struct Solver<F = Level> {
+    /// The coefficient of friction between the ground and a link.
+    grip: f32,
     /// The motors of loose hinges.
     pub motors: Vec<MotorRow>,
     /// The contacts.
@@ -31,9 +33,11 @@ pub struct Solver<F = Level> {
 }
 
 impl<F: Facing> Solver<F> {
-    /// Room for a body of so many links that may touch the ground at so many points: a step allocates nothing.
-    pub fn new(links: usize, points: usize) -> Self {
+    /// Room for a body of so many links that may touch the ground, with such a coefficient of friction, at so many
+    /// points: a step allocates nothing.
+    pub fn new(links: usize, points: usize, grip: f64) -> Self {
         Self {
+            grip: grip as f32,
             motors: Vec::with_capacity(links),
             contacts: Vec::with_capacity(points),
             motor_entries: Vec::with_capacity(links * links),
@@ -115,7 +119,7 @@ impl<F: Facing> Solver<F> {
             worst = worst.max(motor.improve(&mut change, &self.motor_entries));
         }
         for contact in &mut self.contacts {
-            worst = worst.max(contact.improve(&mut change, &self.contact_entries));
+            worst = worst.max(contact.improve(&mut change, &self.contact_entries, self.grip));
         }
         *root = change.root;
         worst

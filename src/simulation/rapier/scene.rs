@@ -36,6 +36,7 @@ impl Scene {
             }
         };
         for ground in grounds {
+            let ground = ground.friction((FRICTION * trial.ground.roughness()) as f32);
             world.insert_collider(ground, None);
         }
         Self { world }

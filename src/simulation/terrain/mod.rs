@@ -26,6 +26,10 @@ pub const STEEPNESS_MAX: f64 = 20.0;
 /// The height of the walls above the highest point of the edge, in metres.
 pub const WALL_M: f64 = 1.0;
 
+/// How many times as rough as a plane a terrain is: its coefficient of friction with a link is 1, as that of rubber on
+/// rock. With the plane's ¼ nobody can so much as stand on what is steeper than 14°, and the mountain has 45°.
+const ROUGHNESS: f64 = 4.0;
+
 /// What a body stands on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Ground {
@@ -50,6 +54,14 @@ impl Ground {
         match self {
             Ground::Plane => Vector3::z(),
             Ground::Terrain(terrain) => terrain.facet(x_m, y_m).normal,
+        }
+    }
+
+    /// How rough it is, in multiples of a plane's friction.
+    pub fn roughness(&self) -> f64 {
+        match self {
+            Ground::Plane => 1.0,
+            Ground::Terrain(_) => ROUGHNESS,
         }
     }
 
@@ -169,7 +181,7 @@ impl Terrain {
 
     /// Where a body begins if nothing else is said: as far south of the middle as the foot of [`mountain`] is.
     pub fn usual_start_m([_, rows]: [usize; 2], step_m: f64) -> [f64; 2] {
-        [0.0, -0.4 * (rows.saturating_sub(1)) as f64 * step_m]
+        [0.0, -0.35 * (rows.saturating_sub(1)) as f64 * step_m]
     }
 
     fn check_cliffs(&self) -> Result<(), TerrainError> {

@@ -20,8 +20,8 @@ fn the_mountain_is_the_courses_with_small_rocks_that_leave_its_foot_smooth() {
         let rock_m = place_m.z - hill_m(place_m.x, place_m.y);
         assert!((-1e-6..=0.1).contains(&rock_m), "{place_m}: {rock_m}");
         rocks = rocks.max(rock_m);
-        if place_m.xy().norm() > 8.0 {
-            assert!(rock_m < 0.015, "{place_m}: {rock_m}");
+        if place_m.xy().norm() > 7.0 {
+            assert!(rock_m < 0.034, "{place_m}: {rock_m}");
         }
     }
     assert!(rocks > 0.09, "{rocks}");
