@@ -104,7 +104,7 @@ fn evolving_gains_height() {
         best.push(step.report.statistics.best.finite().unwrap_or(0.0));
     });
     let (first, last) = (best[0], best[best.len() - 1]);
-    assert!(last > first + 0.01 && last > 0.02, "{best:?}");
+    assert!(last > 0.01 && last > 3.0 * first, "{best:?}");
 }
 
 /// A world with a genome and an image of a valley.
@@ -157,7 +157,7 @@ fn a_terrain_that_was_changed_or_is_gone_is_refused() {
         &format!("--n 1 --seed 3 --migrants 0 {TINY} --engine featherstone --terrain valley.png"),
     );
     let copy = world.read("run/terrain.csv");
-    world.write("run/terrain.csv", copy.replacen("\n5", "\n4", 1));
+    world.write("run/terrain.csv", copy.replacen(",0,", ",0.5,", 1));
     let said = world.refusal("resume run --generations 4");
     assert!(said.contains("it is not what run.toml says of it"), "{said}");
     assert_eq!(world.islands("verify run").code, Some(1));

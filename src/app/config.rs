@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::seeds::SeedGenomes;
-use super::terrains::KeptTerrain;
+use super::terrains::{self, KeptTerrain};
 use crate::archipelago::{Archipelago, Migration, Topology, migration::MIGRANTS_MAX};
 use crate::creature::{Profile, Scales};
 use crate::evolution::{Selection, Strategy, Variation};
@@ -99,7 +99,7 @@ pub struct Config {
     /// The genomes that the islands begin with, if not all are random: the run's folder keeps them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed_genomes: Option<SeedGenomes>,
-    /// What creatures stand on, if it is another ground than the task's: the run's folder keeps it.
+    /// What creatures stand on, if not on the task's ground: the run's folder keeps it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub terrain: Option<KeptTerrain>,
     /// What launched the run: written by the program, ignored when it is read for a new run.
@@ -182,7 +182,7 @@ impl Config {
             return Err(Failure::no_run(dir));
         }
         let mut config = Self::read(&dir.config())?;
-        config.read_terrain(dir)?;
+        terrains::read(&mut config, dir)?;
         config.check()?;
         match config.is_launched() {
             true => Ok(config),
@@ -191,14 +191,6 @@ impl Config {
                 dir.config().display()
             ))),
         }
-    }
-
-    /// Reads the terrain that a run's folder keeps, if the configuration says that there is one.
-    ///
-    /// # Errors
-    /// If it is not there, or not what the configuration says.
-    pub fn read_terrain(&mut self, dir: &RunDir) -> Result<(), Failure> {
-        self.terrain.as_mut().map_or(Ok(()), |terrain| terrain.read(dir))
     }
 
     /// The file that says the same.

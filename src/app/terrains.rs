@@ -82,11 +82,7 @@ impl KeptTerrain {
         Self { digest, terrain: Some(terrain) }
     }
 
-    /// Reads the copy in a run's folder.
-    ///
-    /// # Errors
-    /// If it is not there, or not what the configuration says.
-    pub fn read(&mut self, dir: &RunDir) -> Result<(), Failure> {
+    fn read(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let path = dir.terrain();
         let bytes = file::read(&path, BYTES_MAX).map_err(|error| wrong(&path, &error.reason()))?;
         if blake3::hash(&bytes).to_string() != self.digest {
@@ -121,10 +117,18 @@ pub fn find(
 ) -> Result<(), Failure> {
     match (args.read()?, read_from) {
         (Some(terrain), _) => config.terrain = Some(KeptTerrain::of(terrain)),
-        (None, Some(file)) => config.read_terrain(&RunDir::at(file.with_file_name("")))?,
+        (None, Some(file)) => read(config, &RunDir::at(file.with_file_name("")))?,
         (None, None) => {}
     }
     Ok(())
+}
+
+/// Reads the terrain that a run's folder keeps, if the configuration says that there is one.
+///
+/// # Errors
+/// If it is not there, or not what the configuration says.
+pub fn read(config: &mut Config, dir: &RunDir) -> Result<(), Failure> {
+    config.terrain.as_mut().map_or(Ok(()), |terrain| terrain.read(dir))
 }
 
 /// Writes the copy into the folder of a run that has a terrain of its own.

@@ -17,7 +17,7 @@ use super::cli::VerifyArgs;
 use super::config::{Config, FILE_BYTES_MAX};
 use super::console::print;
 use super::seeds::{self, SeedGenomes};
-use super::{Failure, table};
+use super::{Failure, table, terrains};
 use crate::store::{RunDir, StoreError, file};
 use check::{Check, counted};
 use records::Records;
@@ -96,7 +96,7 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 /// The configuration of a run that was launched.
 fn launched(text: &str, dir: &RunDir) -> Result<Config, String> {
     let mut config = Config::parse(text)?;
-    config.read_terrain(dir).map_err(|failure| failure.message)?;
+    terrains::read(&mut config, dir).map_err(|failure| failure.message)?;
     config.check().map_err(|failure| failure.message)?;
     if !config.is_launched() {
         return Err("it names no seed or no launch, as that of every run does".to_owned());

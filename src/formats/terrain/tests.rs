@@ -162,7 +162,7 @@ fn files_of_any_content_are_terrains_or_refused() {
         }
         read_well += usize::from(read(&file, &PLAIN).is_ok());
     }
-    assert!(read_well > 300, "{read_well}");
+    assert!(read_well > 150, "{read_well}");
 }
 
 #[test]

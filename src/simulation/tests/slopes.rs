@@ -96,8 +96,8 @@ fn a_ball_rolls_down_a_slope_without_slipping() {
         }
         let down_m_s2 = GRAVITY_M_S2 * libm::sin(libm::atan(slope)) / 1.4;
         let error = (legs_m[1] - legs_m[0]) / down_m_s2 - 1.0;
-        // Our own engine brakes what rolls, on a plane too: by a tenth of its speed a second.
-        let tolerance = if engine == Engine::Rapier { 0.01 } else { 0.12 };
+        // Our own engine brakes what rolls, on a plane too: the ground pushes half a step ahead of where weight pulls.
+        let tolerance = if engine == Engine::Rapier { 0.01 } else { 0.16 };
         assert!(error.abs() < tolerance, "{engine}: {error}");
     }
 }
