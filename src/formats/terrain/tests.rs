@@ -66,7 +66,7 @@ fn a_mesh_of_the_mountain_is_the_mountain() {
 #[test]
 fn of_an_overhang_the_upper_surface_counts_and_where_there_is_none_the_lowest_height() {
     let text = "v 0 0 1\nv 4 0 1\nv 4 4 1\nv 0 4 1\nv 0 0 2\nv 2 0 2\nv 2 4 2\nv 0 4 2\n\
-        v 8 0 0.5\nv 6 4 1\nv 8 4 1\nf 4 3 2 1\nf 5 6 7 8\nf -3 -2 -1\n";
+        v 8 0 0.5\nv 6 4 1\nv 8 4 1\nf 5 6 7 8\nf 4 3 2 1\nf -3 -2 -1\n";
     let terrain = read(text.as_bytes(), &PLAIN).unwrap();
     assert_eq!(terrain.half_m(), nalgebra::Vector2::new(4.0, 2.0));
     assert_eq!(terrain.height_m(-3.5, 0.0), 2.0);
