@@ -87,7 +87,7 @@ fn save(times: usize) -> (f64, f64) {
     claim.make_folders(1).expect("the folder is writable");
     let restored = Logbook::open(&dir, &archipelago, 0, &config.settings());
     let mut logbook = restored.expect("the folder is writable").logbook;
-    let problem = config.problem();
+    let problem = config.locomotion();
     let mut step: Step<_> = island::genesis(&problem, &archipelago, 0);
     let [mut saves, mut records] = [Vec::new(), Vec::new()];
     for generation in 0..times {

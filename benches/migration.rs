@@ -129,6 +129,7 @@ fn outbox(migrants: usize) -> Outbox<Gene> {
         Individual {
             id: Id { island: 0, generation: 5, index },
             parents: [Some(Id { island: 1, generation: 4, index }), None],
+            origin: 0,
             genome: (0..GENES).map(gene).collect(),
             fitness: Fitness::new(f64::from(index)),
         }
@@ -141,7 +142,7 @@ fn archipelago(migrants: usize) -> Archipelago {
         islands: 2,
         seed: 7,
         topology: Topology::Ring,
-        migration: Migration { interval: 5, migrants, lag: 1 },
+        migration: Migration { interval: 5, migrants, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 24,
             elites: 2,
@@ -153,7 +154,9 @@ fn archipelago(migrants: usize) -> Archipelago {
                 shrink_rate: 0.1,
                 grow_rate: 0.1,
                 genes_max: GENES,
+                ..Variation::default()
             },
+            ..Strategy::default()
         },
     }
 }

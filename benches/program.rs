@@ -1,7 +1,7 @@
 //! The real program, run to its end, and what benches of it share.
 
 use serde_json::Value;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use tempfile::TempDir;
 
 /// Runs the program with these settings, and returns its result.
@@ -14,11 +14,19 @@ pub fn run(settings: &[String]) -> Value {
 
 /// Does something else with the program, and returns the JSON that it prints last.
 pub fn json(arguments: &[String]) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_islands"))
-        .args(arguments)
-        .stderr(Stdio::inherit())
-        .output()
-        .expect("the program starts");
+    result(start(arguments))
+}
+
+/// Starts the program.
+pub fn start(arguments: &[String]) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_islands"));
+    command.args(arguments).stdin(Stdio::null()).stdout(Stdio::piped());
+    command.spawn().expect("the program starts")
+}
+
+/// Waits for its end, and returns the JSON that it prints last.
+pub fn result(run: Child) -> Value {
+    let output = run.wait_with_output().expect("it is our child");
     assert!(output.status.success(), "{}", output.status);
     let text = String::from_utf8(output.stdout).expect("it prints text");
     let last = text.lines().last().expect("it prints its result");

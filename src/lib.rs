@@ -12,11 +12,12 @@
 //! |---|---|---|
 //! | 0 | [`rng`] | an address (seed, island, generation, index, purpose) becomes a stream of random numbers |
 //! |   | [`choice`] | settings that are one of a few, by their names |
+//! |   | [`statistics`] | what repeated runs come to, and whether two sets of them differ |
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
 //! |   | [`simulation`] | bodies tried in rapier or a stepper of our own |
-//! | 3 | [`problems`] | what can be evolved: creatures that move |
+//! | 3 | [`problems`] | what can be evolved: creatures that move, points of functions, bits |
 //! | 4 | [`transport`] | exchange between processes through iceoryx2 |
 //! |   | [`store`] | what a run leaves on disk |
 //! |   | [`formats`] | files for people and other programs |
@@ -35,7 +36,7 @@
 //!   fitness are libm's.
 //! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`] and the worst fitness.
 //! - **Each heavy dependency has one importer**: rapier3d `simulation`, iceoryx2 `transport`, bincode `store`,
-//!   rerun `view`, clap `app`.
+//!   rerun `view`, plotters `formats`, clap `app`.
 //!
 //! # A run in one process
 //!
@@ -44,7 +45,7 @@
 //! use islands::archipelago::{Digest, lockstep};
 //!
 //! let config = Config { islands: 2, population: 3, elites: 1, genes: 2, seed: Some(7), ..Config::default() };
-//! let islands = lockstep::run(&config.problem(), &config.archipelago(), 1, |step| {
+//! let islands = lockstep::run(&config.locomotion(), &config.archipelago(), 1, |step| {
 //!     println!("island {} has walked {:?}", step.report.island, step.report.statistics.best);
 //! });
 //! println!("{}", Digest::of(&islands));
@@ -52,6 +53,7 @@
 
 pub mod choice;
 pub mod rng;
+pub mod statistics;
 
 pub mod creature;
 pub mod evolution;

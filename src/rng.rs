@@ -29,6 +29,18 @@ pub enum Purpose {
     Crossover = 2,
     /// The mutation of an offspring.
     Mutation = 3,
+    /// What is drawn from a distribution that learns, and where that begins again.
+    Sampling = 4,
+    /// Where a benchmark has its optimum: drawn once, for all runs alike.
+    Instance = 16,
+    /// What differs in a trial: drawn for a trial's index alone, for all runs alike.
+    Perturbation = 20,
+    /// The individuals that an island sends.
+    Emigration = 8,
+    /// The residents that immigrants replace.
+    Immigration = 9,
+    /// Who sends to whom, which is not drawn on any island.
+    Topology = 10,
     /// The rocks of a terrain, which no run's seed decides.
     Terrain = 12,
 }

@@ -178,7 +178,7 @@ fn a_film_of_nothing_or_to_nowhere_is_refused() {
 #[test]
 fn every_command_has_help() {
     let world = World::new();
-    for command in ["", "run", "evaluate", "inspect", "replay", "monitor", "island"] {
+    for command in ["", "run", "experiment", "evaluate", "inspect", "replay", "monitor", "island"] {
         let ending = world.islands(&format!("{command} --help"));
         assert_eq!(ending.code, Some(0), "{command}");
         assert!(ending.stdout.contains("Usage: islands"), "{command}: {}", ending.stdout);

@@ -100,7 +100,7 @@ fn evolving_gains_height() {
         ..Config::default()
     };
     let mut best = Vec::new();
-    lockstep::run(&config.problem(), &config.archipelago(), config.generations, |step| {
+    lockstep::run(&config.locomotion(), &config.archipelago(), config.generations, |step| {
         best.push(step.report.statistics.best.finite().unwrap_or(0.0));
     });
     let (first, last) = (best[0], best[best.len() - 1]);
@@ -134,7 +134,7 @@ fn a_run_keeps_the_terrain_that_it_was_on_and_everybody_uses_it() {
     let dir = RunDir::at(world.path("run"));
     let config = Config::of_run(&dir).unwrap();
     let kept = terrain::read(&fs::read(dir.terrain()).unwrap(), &Default::default()).unwrap();
-    assert_eq!(config.problem().terrain, Some(kept.keep()));
+    assert_eq!(config.locomotion().terrain, Some(kept.keep()));
     assert_eq!(world.json("verify run --thorough --json")["ok"], true);
     assert_eq!(world.digest("again", "--config run/run.toml"), digest);
     assert_eq!(world.digest("kept", &format!("{settings} --terrain run/terrain.csv")), digest);

@@ -21,7 +21,7 @@ fn evolved(world: &World) -> (serde_json::Value, Vec<Champion<Gene>>) {
 fn every_champion_of_another_engine_is_scored_again_by_rapier() {
     let world = World::new();
     let (result, champions) = evolved(&world);
-    let problem = Config::read(&RunDir::at(world.path("run")).config()).unwrap().problem();
+    let problem = Config::read(&RunDir::at(world.path("run")).config()).unwrap().locomotion();
     assert_eq!(problem.engine, Engine::Featherstone);
     let judge = Locomotion { engine: Engine::Rapier, ..problem };
     for champion in &champions {

@@ -5,9 +5,10 @@
 //! `ISLANDS_BLESS=1 cargo test --release golden`.
 
 use crate::support::World;
+use islands::app::catalogue::Visitor;
 use islands::app::config::Config;
+use islands::app::subject::Subject;
 use islands::archipelago::{Digest, Step, lockstep};
-use islands::creature::Gene;
 use islands::formats::metrics::{self, Row};
 use islands::simulation::Engine;
 use islands::store::RunDir;
@@ -18,16 +19,25 @@ use std::path::{Path, PathBuf};
 const BLESS: &str = "ISLANDS_BLESS";
 
 /// The digest and the metrics of a configuration's archipelago, evolved in this process.
-fn in_lockstep(config: &Config) -> (String, Vec<Row>) {
-    let mut rows = Vec::new();
-    let observe = |step: &Step<Gene>| rows.push(Row::new(&step.report, 0.0));
-    let (problem, archipelago) = (config.problem(), config.archipelago());
-    let islands = lockstep::run(&problem, &archipelago, config.generations, observe);
-    (Digest::of(&islands).to_string(), rows)
+pub fn in_lockstep(config: &Config) -> (String, Vec<Row>) {
+    config.visit(Lockstep(config))
+}
+
+struct Lockstep<'a>(&'a Config);
+
+impl Visitor for Lockstep<'_> {
+    type Output = (String, Vec<Row>);
+
+    fn visit<P: Subject>(self, problem: P) -> Self::Output {
+        let mut rows = Vec::new();
+        let observe = |step: &Step<P::Gene>| rows.push(Row::new(&step.report, 0.0));
+        let islands = lockstep::run(&problem, &self.0.archipelago(), self.0.generations, observe);
+        (Digest::of(&islands).to_string(), rows)
+    }
 }
 
 /// The same of a run in processes.
-fn in_processes(world: &World, name: &str, settings: &str) -> (String, Vec<Row>) {
+pub fn in_processes(world: &World, name: &str, settings: &str) -> (String, Vec<Row>) {
     let digest = world.digest(name, settings);
     let file = fs::File::open(RunDir::at(world.path(name)).metrics()).unwrap();
     let timeless = |row| Row { seconds: 0.0, ..row };
@@ -57,6 +67,18 @@ fn processes_that_exchange_migrants_equal_an_archipelago_in_one_process() {
         ("three", "--n 3 --migration-interval 1"),
         ("three-at-once", "--n 3 --migration-interval 2 --migration-lag 0"),
         ("two-send-all", "--n 2 --migration-interval 1 --migrants 4"),
+        (
+            "torus",
+            "--n 6 --topology torus --emigrants tournament:2 --replacement similar --migration-interval 1",
+        ),
+        (
+            "star",
+            "--n 4 --topology star --emigrants random --replacement random --migration-interval 1",
+        ),
+        (
+            "random",
+            "--n 5 --topology random-regular:2 --replacement similar --migration-interval 1",
+        ),
     ] {
         let found = in_processes(&world, name, &format!("{settings} {more}"));
         let config = Config::read(&RunDir::at(world.path(name)).config()).unwrap();
@@ -86,6 +108,8 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
         "course-coursework",
         "debug-featherstone",
         "debug",
+        "rastrigin",
+        "trap",
         "travel-lecture",
         "walk-featherstone",
         "walk-native",

@@ -62,7 +62,7 @@ fn assert_goes_on(world: &World, name: &str) -> String {
         config.generations
     ));
     assert_eq!(ending.code, Some(0), "{ending:?}");
-    let (problem, archipelago) = (config.problem(), config.archipelago());
+    let (problem, archipelago) = (config.locomotion(), config.archipelago());
     let expected = lockstep::run(&problem, &archipelago, config.generations, |_| ());
     assert_eq!(ending.json()["digest"], Digest::of(&expected).to_string());
     world.assert_left_nothing();
@@ -355,7 +355,7 @@ fn a_recording_that_finds_no_room_costs_the_film_and_nothing_else() {
     assert!(warnings.iter().any(|line| line.contains("recording.rrd")), "{warnings:?}");
     let config = Config::read(&world.path("run/run.toml")).unwrap();
     let undisturbed =
-        lockstep::run(&config.problem(), &config.archipelago(), config.generations, |_| ());
+        lockstep::run(&config.locomotion(), &config.archipelago(), config.generations, |_| ());
     assert_eq!(ending.json()["digest"], Digest::of(&undisturbed).to_string());
     assert!(ending.json().get("recording").is_none(), "half a film is no film");
     world.assert_left_nothing();

@@ -44,8 +44,12 @@ impl Forger {
     /// Sends what could be the outbox of `epoch` with one migrant, but for what `forge` does to it. Waits until
     /// there is room for it.
     pub fn send(&self, epoch: u32, forge: impl Fn(&mut BatchHeader, &mut Vec<Gene>)) {
-        let migrant =
-            IndividualHeader { fitness: 1e9, gene_count: 1, id: [0; 3], parents: [NOBODY; 2] };
+        let migrant = IndividualHeader {
+            fitness: 1e9,
+            gene_count: 1,
+            parents: [NOBODY; 2],
+            ..IndividualHeader::default()
+        };
         let (run_id, count) = (self.run_id, 1);
         let mut header = BatchHeader { run_id, epoch, count, ..BatchHeader::default() };
         header.migrants[0] = migrant;

@@ -182,7 +182,7 @@ fn every_island_begins_with_as_many_of_the_genomes_as_it_has_room_for() {
     let run = format!("--out run {SEEDED} {TINY} --seed-genomes elites");
     let digest = world.digest("run", &run.replace("--out run ", ""));
     let config = Config::read(&RunDir::at(world.path("run")).config()).unwrap();
-    let problem = Founded { problem: config.problem(), founders: founders() };
+    let problem = Founded { problem: config.locomotion(), founders: founders() };
     let mut firsts = Vec::new();
     let islands = lockstep::run(&problem, &config.archipelago(), config.generations, |step| {
         if step.report.generation == 0 {
@@ -203,7 +203,7 @@ fn where_there_are_fewer_genomes_than_room_the_rest_is_as_random_as_ever() {
     world.digest("run", &format!("{settings} --seed-genomes one.csv"));
     let config = Config::read(&RunDir::at(world.path("run")).config()).unwrap();
     let first = |founders: Vec<Vec<Gene>>| {
-        let problem = Founded { problem: config.problem(), founders };
+        let problem = Founded { problem: config.locomotion(), founders };
         let islands = lockstep::run(&problem, &config.archipelago(), 0, |_| ());
         islands.into_iter().map(|it| it.population).collect::<Vec<_>>()
     };

@@ -1,5 +1,6 @@
 //! The promises of the crate, a module a subject.
 
+mod asynchrony;
 mod bodies;
 mod chaos;
 mod cleaning;
@@ -8,13 +9,17 @@ mod climbing;
 mod confirmation;
 mod course;
 mod determinism;
+mod experiment;
 mod exploits;
 mod faults;
 mod forger;
 mod format;
 mod hostile;
 mod imports;
+#[cfg(feature = "view")]
+mod onlooker;
 mod physics;
+mod problems;
 #[cfg(feature = "view")]
 mod recording;
 #[cfg(feature = "view")]
@@ -22,8 +27,11 @@ mod reel;
 #[cfg(feature = "view")]
 mod replay;
 mod resume;
+mod robustness;
 mod run;
 mod support;
 mod survival;
 mod tidy;
 mod verify;
+#[cfg(feature = "view")]
+mod watching;

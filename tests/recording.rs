@@ -47,6 +47,23 @@ fn a_recording_holds_the_curves_of_every_island() {
 }
 
 #[test]
+fn a_recording_of_numbers_holds_curves_families_and_events_and_nothing_in_space() {
+    let world = World::new();
+    let settings = "--problem ackley --dimensions 3 --population 6 --generations 12";
+    world.json(&format!(
+        "--n 2 --seed 43 --out run --quiet --json --migration-interval 3 {settings}"
+    ));
+    let recording = Recording::read(&world.path("run/recording.rrd"));
+    assert_eq!(recording.generations(2), Vec::from_iter(0..=12));
+    let events = recording.texts("/events").join("\n");
+    assert!(events.contains("new champion, -") && events.contains("migration 0 → 1"), "{events}");
+    assert!(recording.chunks("/family").next().is_some());
+    let entities: BTreeSet<String> = recording.rows().into_keys().map(|key| key.0).collect();
+    let in_space = |path: &&String| path.starts_with("/islands") || path.starts_with("/race");
+    assert_eq!(entities.iter().find(in_space), None);
+}
+
+#[test]
 fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
     let world = World::new();
     let settings = "--population 6 --generations 6 --genes 2";
@@ -103,7 +120,7 @@ fn a_film_that_is_made_of_a_run_that_is_over_is_the_one_that_was_made_while_it_w
             assert_eq!(made.frames(&links), live.frames(&links));
         }
     }
-    let events = |recording: &Recording| BTreeSet::from_iter(recording.texts("/events"));
+    let events = |recording: &Recording| BTreeSet::from_iter(recording.events(2));
     assert_eq!(events(&made), events(&live));
 }
 
@@ -165,7 +182,7 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     // The film shows every third generation's champion, and at its end the one that came after the last of them.
     let warning = "WARNING: the champion of island 0 was reported with ";
     assert_eq!(ending.stderr.matches(warning).count(), 12, "{ending:?}");
-    let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
+    let events = Recording::read(&world.path("run/recording.rrd")).events(1);
     let count = |word| events.iter().filter(|event| event.contains(word)).count();
     assert_eq!((count(warning), count(": new champion, ")), (12, 32));
 }
@@ -230,7 +247,7 @@ fn a_recording_that_is_there_is_not_lost_to_a_full_disk() {
 fn a_recording_tells_what_happened() {
     let world = World::new();
     world.json(&format!("--n 2 --seed 41 --out run --quiet --json {TINY}"));
-    let events = Recording::read(&world.path("run/recording.rrd")).texts("/events");
+    let events = Recording::read(&world.path("run/recording.rrd")).events(2);
     let count = |word: &str| events.iter().filter(|event| event.contains(word)).count();
     assert!(count("new champion") >= 2, "{events:?}");
     assert_eq!(count(": 2 immigrants"), 2, "{events:?}");
@@ -238,17 +255,19 @@ fn a_recording_tells_what_happened() {
 }
 
 #[test]
-fn two_runs_of_a_seed_have_the_same_film_row_by_row() {
+fn two_runs_of_a_seed_have_the_same_film_row_by_row_and_piece_by_piece() {
     let world = World::new();
     let films = ["a", "b"].map(|name| {
         world.json(&format!("--n 2 --seed 41 --out {name} --quiet --json --clip-every 2 {TINY}"));
-        Recording::read(&world.path(&format!("{name}/recording.rrd"))).rows()
+        Recording::read(&world.path(&format!("{name}/recording.rrd")))
     });
+    assert_eq!(films[0].pieces(), films[1].pieces());
+    let films = films.map(|film| film.rows());
     assert_eq!(films[0].len(), films[1].len());
     for (a, b) in films[0].iter().zip(&films[1]) {
         assert_eq!(a, b);
     }
-    for entity in ["/events", "/family", "/state/island-0", "/islands/1/prints", "/topology"] {
+    for entity in ["/events/0", "/family", "/state/island-0", "/islands/1/prints", "/topology"] {
         assert!(films[0].keys().any(|(path, ..)| path == entity), "{entity}");
     }
 }
@@ -292,6 +311,9 @@ fn a_viewer_is_opened_if_it_is_there_and_of_the_right_version_and_otherwise_said
     assert_eq!((found.code, found.stderr.as_str()), (Some(0), ""), "{found:?}");
     until("the viewer was opened", || world.path("opened").exists());
     until("it was told what", || world.read("opened").trim() == "run/champion.rrd");
+    world.write("bin/rerun", "#!/bin/sh\necho 'rerun-cli 0.36.3'\n[ \"$1\" = --version ]\n");
+    let blind = replay(&bin);
+    assert!(blind.stderr.contains("the viewer ended at once (exit status: 1)"), "{blind:?}");
 }
 
 /// Writes a log of these records instead of the one that is there.

@@ -132,6 +132,23 @@ impl Recording {
         rows
     }
 
+    /// The pieces that it is written in: entity, components and rows of each, in some order.
+    pub fn pieces(&self) -> Vec<(String, Vec<String>, usize)> {
+        let piece = |chunk: &Chunk| {
+            let names = chunk.components_identifiers().map(|name| name.to_string());
+            let names = BTreeSet::from_iter(names).into_iter().collect();
+            (chunk.entity_path().to_string(), names, chunk.num_rows())
+        };
+        let mut pieces: Vec<_> = self.0.iter().map(piece).collect();
+        pieces.sort();
+        pieces
+    }
+
+    /// What happened on so many islands.
+    pub fn events(&self, islands: u32) -> Vec<String> {
+        (0..islands).flat_map(|island| self.texts(&format!("/events/{island}"))).collect()
+    }
+
     pub fn texts(&self, path: &str) -> Vec<String> {
         let texts = self.chunks(path).filter_map(|chunk| Some((chunk, component(chunk, ":text")?)));
         texts

@@ -124,7 +124,7 @@ fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
     assert!(rows.len() > 2 && rows[0].ends_with("founder"), "{ending:?}");
 
     let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
-    let problem = Config::read(&RunDir::at(world.path("run")).config()).unwrap().problem();
+    let problem = Config::read(&RunDir::at(world.path("run")).config()).unwrap().locomotion();
     let (_, film) = problem.film(&genome).unwrap();
     let last = rows.len() as u32 - 2;
     Recording::read(&world.path("run/ancestry.rrd")).assert_ends_with(last, &film, Task::Walk);

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The floor of each module: it imports only from lower ones.
-const FLOORS: [(&str, u8); 13] = [
+const FLOORS: [(&str, u8); 14] = [
     ("choice", 0),
     ("rng", 0),
+    ("statistics", 0),
     ("evolution", 1),
     ("creature", 1),
     ("archipelago", 2),
@@ -24,11 +25,12 @@ const FLOORS: [(&str, u8); 13] = [
 ];
 
 /// Each heavy dependency, and the only module that imports it.
-const SOLE_IMPORTERS: [(&str, &str); 5] = [
+const SOLE_IMPORTERS: [(&str, &str); 6] = [
     ("rapier3d", "simulation"),
     ("iceoryx2", "transport"),
     ("bincode", "store"),
     ("rerun", "view"),
+    ("plotters", "formats"),
     ("clap", "app"),
 ];
 

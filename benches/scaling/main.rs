@@ -99,7 +99,7 @@ fn main() {
 
 /// The files of random genomes, as the first generation of a run has them.
 fn write_genomes(folder: &Path, budget: &Budget) -> Vec<String> {
-    let problem = budget.projection.problem();
+    let problem = budget.projection.locomotion();
     let source = Source { seed: SEED, island: 0 };
     let write = |index: u32| {
         let genome = problem.random_genome(&mut source.stream(0, index, Purpose::Genesis));

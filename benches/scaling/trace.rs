@@ -63,7 +63,7 @@ impl Trace {
         let claim = dir.create().expect("the folder is writable");
         claim.make_folders(config.islands).expect("the folder is writable");
         let mut logbooks = logbooks(&config, &dir);
-        let problem = Timed { problem: config.problem(), batch: Mutex::default() };
+        let problem = Timed { problem: config.locomotion(), batch: Mutex::default() };
         let mut islands: Vec<Vec<Generation>> = logbooks.iter().map(|_| Vec::new()).collect();
         let mut began_s = processor_s();
         lockstep::run(&problem, &archipelago, config.generations, |step| {
@@ -138,10 +138,6 @@ impl Problem for Timed {
 
     fn random_genome(&self, rng: &mut Stream) -> Vec<Gene> {
         self.problem.random_genome(rng)
-    }
-
-    fn mutate_gene(&self, gene: &mut Gene, rate: f64, amount: f64, rng: &mut Stream) {
-        self.problem.mutate_gene(gene, rate, amount, rng);
     }
 
     fn distance(&self, a: &[Gene], b: &[Gene]) -> f64 {

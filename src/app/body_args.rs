@@ -4,7 +4,7 @@ use super::terrains::TerrainArgs;
 use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Scales};
-use crate::problems::Task;
+use crate::problems::{RobustBy, Task};
 use crate::simulation::Engine;
 use clap::Args;
 use std::path::PathBuf;
@@ -50,6 +50,13 @@ pub struct TrialArgs {
     /// fast)
     #[arg(long, default_value_t)]
     pub engine: Engine,
+    /// Score it by this many trials with other friction, motor strength, first direction, a push and other steps;
+    /// 0 for one trial as it is
+    #[arg(long, default_value_t = 0, value_name = "K")]
+    pub robustness: u32,
+    /// What the scores of these trials come to: worst or mean
+    #[arg(long, default_value_t, value_name = "HOW")]
+    pub robust_by: RobustBy,
     /// No body gets more links than this, but for profile coursework
     #[arg(long, default_value_t = 32, value_name = "L")]
     pub max_links: usize,

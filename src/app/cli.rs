@@ -3,11 +3,13 @@
 use super::body_args::ChangeArgs;
 pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
 use super::config::FREE;
+pub use super::experiment::ExperimentArgs;
+use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
 use super::terrains::TerrainArgs;
 use crate::choice;
 use crate::creature::Profile;
-use crate::problems::Task;
+use crate::problems::{RobustBy, Task};
 use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
@@ -22,6 +24,7 @@ use std::path::PathBuf;
     after_help = "Examples:
   islands --n 4                      four islands evolve walkers
   islands run --n 4 --seed 7         the same, with a seed that fixes the result to the last bit
+  islands run --problem rastrigin --dimensions 10   four islands look for the lowest point
   islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
   islands replay runs/walk-seed7 --ancestry --view spawn
@@ -76,6 +79,8 @@ pub enum Command {
     Run(Box<RunArgs>),
     /// Go on with a run that was interrupted or crashed, or make a finished one longer
     Resume(Box<ResumeArgs>),
+    /// Compare settings: a grid of them times seeds, with statistics and a plot
+    Experiment(ExperimentArgs),
     /// Score genomes
     Evaluate(EvaluateArgs),
     /// Show the body that a genome or a URDF describes
@@ -113,7 +118,7 @@ pub struct RunArgs {
     /// A file that says the same as these flags, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
-    /// Folder for the run's files, new or empty [default: runs/<task>-seed<seed>]
+    /// Folder for the run's files, new or empty [default: runs/<task or problem>-seed<seed>]
     #[arg(long, value_name = "DIR", help_heading = "Running")]
     pub out: Option<PathBuf>,
     #[command(flatten)]
@@ -207,9 +212,11 @@ impl std::str::FromStr for Watching {
 /// Scoring.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
-    /// Files of genomes: a gene a line, 17 numbers from 0 to 1
+    /// Files of genomes: a gene a line, of creatures 17 numbers from 0 to 1
     #[arg(required = true, value_name = "GENOME.csv")]
     pub genomes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub problem: ProblemArgs,
     #[command(flatten)]
     pub trial: TrialArgs,
     /// Threads [default: all cores]
@@ -261,6 +268,12 @@ pub struct ReplayArgs {
     /// fast) [default: rapier, or as in the run]
     #[arg(long)]
     pub engine: Option<Engine>,
+    /// Score by so many perturbed trials; the film is of one as it is [default: 0, or as in the run]
+    #[arg(long, value_name = "K")]
+    pub robustness: Option<u32>,
+    /// What the scores of these trials come to: worst or mean [default: worst, or as in the run]
+    #[arg(long, value_name = "HOW")]
+    pub robust_by: Option<RobustBy>,
     /// No body gets more links than this, but for profile coursework [default: 32, or as in the run]
     #[arg(long, value_name = "L")]
     pub max_links: Option<usize>,
@@ -304,7 +317,8 @@ pub struct VerifyArgs {
     /// Folder of a run that is not under way
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
-    /// Simulate the newest populations and all migrants again too, not only the champions
+    /// Simulate the newest populations and all migrants again too, not only the champions; and evolve a run of
+    /// --exchange async again from what its islands recorded, to the same digest
     #[arg(long)]
     pub thorough: bool,
     /// Threads [default: all cores]

@@ -1,11 +1,12 @@
 //! `islands evaluate`: scores genomes.
 
-use super::cli::EvaluateArgs;
-use super::config::THREADS_MAX;
+use super::catalogue::{Kind, Visitor};
+use super::cli::{EvaluateArgs, TrialArgs};
+use super::config::{Config, THREADS_MAX};
 use super::console::{Stopwatch, print};
-use super::{Failure, genomes};
-use crate::creature::Gene;
-use crate::evolution::{Evaluation, Problem};
+use super::subject::Subject;
+use super::{Failure, genomes, terrains};
+use crate::evolution::Evaluation;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -14,15 +15,19 @@ const REPEAT_MAX: usize = 1_000_000;
 
 #[derive(Serialize)]
 struct Scores {
-    task: String,
-    profile: String,
+    problem: Kind,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    task: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    profile: Option<String>,
     genomes: Vec<Score>,
     evaluations: usize,
     threads: usize,
     wall_seconds: f64,
     evaluations_per_second: f64,
     /// Simulation steps of trials that ran to their end; of settling, which lasts as long as it takes, one round.
-    steps_per_second: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steps_per_second: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -43,31 +48,67 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
             "--threads and --repeat must be at least 1, and at most {THREADS_MAX} and {REPEAT_MAX}"
         )));
     }
-    let problem = args.trial.problem()?;
+    let config = args.config()?;
+    if config.problem != Kind::Creatures {
+        return config.visit(Examiner { args, config: &config });
+    }
+    let problem = config.locomotion();
     let read = |path: &PathBuf| genomes::read(path, &args.trial.read.changes);
-    let genomes: Vec<Vec<Gene>> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
+    let genomes = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
+    judge(args, &config, &problem, genomes)
+}
+
+/// Scores what has no body.
+struct Examiner<'a> {
+    args: &'a EvaluateArgs,
+    config: &'a Config,
+}
+
+impl Visitor for Examiner<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let read = |path: &PathBuf| {
+            genomes::read_for(&problem, path, &[]).map_err(|reason| {
+                Failure::usage(format!("cannot use {}: {reason}", path.display()))
+            })
+        };
+        let genomes = self.args.genomes.iter().map(read).collect::<Result<_, _>>()?;
+        judge(self.args, self.config, &problem, genomes)
+    }
+}
+
+fn judge<P: Subject>(
+    args: &EvaluateArgs,
+    config: &Config,
+    problem: &P,
+    genomes: Vec<Vec<P::Gene>>,
+) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
         .build()
         .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let batch: Vec<&[Gene]> =
+    let batch: Vec<&[P::Gene]> =
         std::iter::repeat_n(&genomes, args.repeat).flatten().map(Vec::as_slice).collect();
 
     let watch = Stopwatch::start();
     let evaluations = pool.install(|| problem.evaluate_batch(&batch));
     let wall_seconds = watch.seconds();
 
+    let a_second = |count: f64| count / wall_seconds.max(1e-9);
+    let is_walker = config.problem == Kind::Creatures;
     let whole = evaluations.iter().filter(|e| e.fitness.finite().is_some()).count();
-    let steps = whole as f64 * f64::from(args.trial.task.trial().steps());
+    let steps = whole as f64 * config.locomotion().steps() as f64;
     let scores = Scores {
-        task: args.trial.task.to_string(),
-        profile: args.trial.read.profile.to_string(),
+        problem: config.problem,
+        task: is_walker.then(|| args.trial.task.to_string()),
+        profile: is_walker.then(|| args.trial.read.profile.to_string()),
         genomes: args.genomes.iter().zip(&evaluations).map(score).collect(),
         evaluations: evaluations.len(),
         threads: pool.current_num_threads(),
         wall_seconds,
-        evaluations_per_second: evaluations.len() as f64 / wall_seconds.max(1e-9),
-        steps_per_second: steps / wall_seconds.max(1e-9),
+        evaluations_per_second: a_second(evaluations.len() as f64),
+        steps_per_second: is_walker.then(|| a_second(steps)),
     };
     for (path, evaluation) in args.genomes.iter().zip(&evaluations) {
         let Evaluation { fitness, outcome } = *evaluation;
@@ -81,6 +122,28 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         print(&format!("{:.1} evaluations a second", scores.evaluations_per_second));
     }
     Ok(())
+}
+
+impl EvaluateArgs {
+    /// The configuration of a run whose genomes these may be.
+    fn config(&self) -> Result<Config, Failure> {
+        let TrialArgs { task, read, engine, robustness, robust_by, max_links, terrain } =
+            &self.trial;
+        let usual = Config::default_for(self.problem.wish());
+        let mut config = Config {
+            task: *task,
+            profile: read.profile,
+            scales: read.changes.scales(),
+            engine: *engine,
+            robustness: *robustness,
+            robust_by: *robust_by,
+            max_links: *max_links,
+            ..self.problem.over(usual)
+        };
+        terrains::find(&mut config, terrain, None)?;
+        config.check()?;
+        Ok(config)
+    }
 }
 
 fn score((path, evaluation): (&PathBuf, &Evaluation)) -> Score {

@@ -5,12 +5,13 @@ use super::body_args::ChangeArgs;
 use super::cli::{ReadArgs, TrialArgs};
 use super::config::LINKS_MAX;
 use super::console::say;
+use super::subject::Subject;
 use super::table::harmless;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{Creature, Gene, Profile, Reading, Scales};
 use crate::formats::urdf::{self, ReadBody};
-use crate::formats::{ReadGenome, genome_csv};
-use crate::problems::Locomotion;
+use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
+use crate::problems::{Locomotion, RobustBy, Robustness};
 use crate::store::file;
 use std::fmt::Display;
 use std::path::Path;
@@ -81,7 +82,21 @@ pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Vec<Gene>, Failure> {
 /// What is wrong with it.
 pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String> {
     let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
-    genome_csv::read_without(bytes.as_slice(), dropped).map_err(|error| error.to_string())
+    let read = genome_csv::read_without(bytes.as_slice(), dropped);
+    read.map_err(|error| reason(&bytes, &error))
+}
+
+/// Reads a genome of any problem; what could not be read is for the caller to say.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn read_for<P: Subject>(
+    problem: &P,
+    path: &Path,
+    dropped: &[usize],
+) -> Result<Vec<P::Gene>, String> {
+    let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
+    problem.read_genome(&bytes, dropped)
 }
 
 /// The columns to leave out, if they can be.
@@ -116,8 +131,19 @@ fn wrong(path: &Path, error: &dyn Display) -> Failure {
     Failure::usage(format!("cannot use {}: {error}", path.display()))
 }
 
+/// Why some bytes are no creature's genome.
+fn reason(bytes: &[u8], error: &GenomeCsvError) -> String {
+    match vector_csv::is_ours(bytes) {
+        true => "it is a genome of another problem, and describes no creature; islands evaluate takes it with the \
+                 --problem that it is of"
+            .to_owned(),
+        false => error.to_string(),
+    }
+}
+
 fn genome(bytes: &[u8], path: &Path, dropped: &[usize]) -> Result<Vec<Gene>, Failure> {
-    let read = genome_csv::read_without(bytes, dropped).map_err(|error| wrong(path, &error))?;
+    let read = genome_csv::read_without(bytes, dropped)
+        .map_err(|error| wrong(path, &reason(bytes, &error)))?;
     for clamped in read.clamped.iter().take(SHOWN) {
         say(&format!("warning: {}: {clamped}", path.display()));
     }
@@ -149,6 +175,16 @@ pub fn links_max(wish: usize) -> Result<usize, Failure> {
     fine.then_some(wish).ok_or_else(wrong)
 }
 
+/// Perturbed trials, if there may be so many.
+///
+/// # Errors
+/// One sentence that says what to change.
+pub fn robustness(trials: u32, by: RobustBy) -> Result<Robustness, Failure> {
+    let most = Robustness::TRIALS_MAX;
+    let wrong = || Failure::usage(format!("robustness must be from 0 to {most}, not {trials}"));
+    (trials <= most).then_some(Robustness { trials, by }).ok_or_else(wrong)
+}
+
 impl ReadArgs {
     /// What the numbers of a gene mean, if that makes sense.
     ///
@@ -172,13 +208,15 @@ impl TrialArgs {
     /// The problem that a genome is tried with.
     ///
     /// # Errors
-    /// If more links are asked for than may be, or scales that the profile has not, or the terrain cannot be used.
+    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be
+    /// used.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, max_links, terrain } = self;
+        let Self { task, read, engine, robustness: trials, robust_by, max_links, terrain } = self;
+        let robustness = robustness(*trials, *robust_by)?;
         let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
         let Reading { profile, scales } = reading;
         let (task, engine, terrain) = (*task, *engine, terrain.read()?);
         let usual = Locomotion::default();
-        Ok(Locomotion { profile, scales, task, engine, links_max, terrain, ..usual })
+        Ok(Locomotion { profile, scales, task, engine, links_max, robustness, terrain, ..usual })
     }
 }

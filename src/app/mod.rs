@@ -1,8 +1,11 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli`, `settings` and `body_args` are what can be said, [`config`] the whole of a run in one struct. `run` is the launcher: it
+//! `cli`, `settings`, `problem_args` and `body_args` are what can be said, [`config`] the whole of a run in one struct. [`catalogue`]
+//! alone knows every problem, and hands the one that is meant to whoever does something with it; [`subject`] is what
+//! the program has to know of it. `run` is the launcher: it
 //! starts a process for each island (`island`) and one that watches (`monitor`), tied to it by `kinship`: they
 //! die with it, and stop when it closes their standard input. What they wrote is gathered into a `result`.
+//! `experiment` compares settings over many runs in this process.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
 //! `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export` takes them
 //! elsewhere; `seeds` are genomes that a run begins with, `terrains` what it stands on. `pedigree` puts ancestries into words, and `viewer` opens a
@@ -11,12 +14,15 @@
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
+mod atlas;
 mod body_args;
+pub mod catalogue;
 mod clean;
 mod cli;
 pub mod config;
 mod console;
 mod evaluate;
+mod experiment;
 mod export;
 mod genomes;
 mod import;
@@ -26,11 +32,13 @@ mod kinship;
 mod monitor;
 #[cfg(feature = "view")]
 mod pedigree;
+mod problem_args;
 mod replay;
 mod result;
 mod run;
 mod seeds;
 mod settings;
+pub mod subject;
 mod table;
 mod terrains;
 mod verify;
@@ -49,6 +57,7 @@ pub fn main() -> ExitCode {
         None => run::run(&cli.run),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Resume(args)) => run::resume(&args),
+        Some(Command::Experiment(args)) => experiment::run(&args),
         Some(Command::Evaluate(args)) => evaluate::run(&args),
         Some(Command::Inspect(args)) => inspect::run(&args),
         Some(Command::Replay(args)) => replay::run(&args),
@@ -119,9 +128,13 @@ impl From<StoreError> for Failure {
 
 impl From<crate::transport::TransportError> for Failure {
     fn from(error: crate::transport::TransportError) -> Self {
-        use crate::transport::TransportError::{NoSpace, TooManyMigrants};
+        use crate::transport::TransportError::{
+            NoSpace, TooManyEdges, TooManyFiles, TooManyMigrants,
+        };
         match error {
-            NoSpace { .. } | TooManyMigrants { .. } => Self::usage(error.to_string()),
+            NoSpace { .. } | TooManyEdges { .. } | TooManyFiles { .. } | TooManyMigrants { .. } => {
+                Self::usage(error.to_string())
+            }
             _ => Self::failed(error.to_string()),
         }
     }

@@ -1,10 +1,9 @@
 //! Ancestries in words.
 
 use super::config::Config;
+use super::subject::Subject;
 use crate::archipelago::{Birth, Champion, Lineage};
-use crate::creature::Gene;
-use crate::evolution::{Fitness, Id, Problem};
-use crate::problems::Locomotion;
+use crate::evolution::Id;
 use crate::view::Family;
 use crate::view::family::{Generation, Member};
 
@@ -12,18 +11,18 @@ use crate::view::family::{Generation, Member};
 const LINE_MAX: usize = 14;
 
 /// Says who the individuals of a run are.
-#[derive(Debug, Clone, Copy)]
-pub struct Herald {
-    problem: Locomotion,
+#[derive(Debug, Clone)]
+pub struct Herald<P> {
+    problem: P,
     /// So many of the first of each island were not random.
     founders: usize,
 }
 
-impl Herald {
+impl<P: Subject> Herald<P> {
     /// The herald of a run.
-    pub fn of(config: &Config) -> Self {
+    pub fn of(config: &Config, problem: P) -> Self {
         let founders = config.seed_genomes.as_ref().map_or(0, |it| it.count);
-        Self { problem: config.problem(), founders }
+        Self { problem, founders }
     }
 
     /// How somebody came to be, for a label on an island.
@@ -66,7 +65,7 @@ impl Herald {
     }
 
     fn label(&self, id: Id, birth: Birth) -> String {
-        let score = short(&self.problem, birth.fitness);
+        let score = self.problem.short(birth.fitness);
         format!(
             "gen {} · island {} · {score} · {}",
             id.generation,
@@ -85,19 +84,11 @@ pub fn selection<T: Clone>(line: &[T], most: usize) -> Vec<T> {
     (0..=last).map(|place| line[place * (line.len() - 1) / last].clone()).collect()
 }
 
-/// A fitness as a label has room for.
-pub fn short(problem: &Locomotion, fitness: Fitness) -> String {
-    match fitness.finite() {
-        Some(score) => format!("{score:.2} {}", problem.unit()),
-        None => "failed".to_owned(),
-    }
-}
-
-/// The same of a champion, and what it was confirmed to be.
-pub fn standing(problem: &Locomotion, champion: &Champion<Gene>) -> String {
-    let score = short(problem, champion.individual.fitness);
+/// What a champion is worth, and what it was confirmed to be, as a label has room for.
+pub fn standing<P: Subject>(problem: &P, champion: &Champion<P::Gene>) -> String {
+    let score = problem.short(champion.individual.fitness);
     match champion.confirmed {
-        Some(confirmed) => format!("{score} ({} in rapier)", short(problem, confirmed)),
+        Some(confirmed) => format!("{score} ({} in rapier)", problem.short(confirmed)),
         None => score,
     }
 }
@@ -115,6 +106,7 @@ fn way(between: usize, moved: Option<(u32, u32)>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::archipelago::Births;
+    use crate::evolution::Fitness;
 
     #[test]
     fn a_family_says_who_was_crossed_and_who_moved() {
@@ -123,11 +115,13 @@ mod tests {
         let mut lineage = Lineage::default();
         for island in 0..2 {
             let births = vec![birth([None; 2], 0.5), birth([None; 2], 0.25)];
-            lineage.push(island, Births { generation: 0, births });
+            lineage.push(island, Births { generation: 0, amount_scale: 1.0, births });
         }
         let crossed = [Some(id(0, 0, 0)), Some(id(1, 0, 1))];
-        lineage.push(1, Births { generation: 1, births: vec![birth(crossed, 2.0)] });
-        let family = Herald::of(&Config::default()).family(&lineage, id(1, 1, 0));
+        let births = vec![birth(crossed, 2.0)];
+        lineage.push(1, Births { generation: 1, amount_scale: 1.0, births });
+        let config = Config::default();
+        let family = Herald::of(&config, config.locomotion()).family(&lineage, id(1, 1, 0));
         let labels: Vec<_> = family.line.iter().map(|it| it.member.label.as_str()).collect();
         let expected =
             ["gen 0 · island 0 · 0.50 m · random", "gen 1 · island 1 · 2.00 m · crossed"];

@@ -1,13 +1,14 @@
 //! What came out of a run: gathered from what its islands wrote.
 
 use super::Failure;
+use super::atlas;
+use super::catalogue::Kind;
 use super::config::Config;
+use super::subject::Subject;
 use crate::archipelago::{Champion, Digest, Island};
-use crate::creature::Gene;
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Individual, Problem};
-use crate::formats::{genome_csv, metrics, urdf};
-use crate::problems::Locomotion;
+use crate::evolution::{Fitness, Gene, Individual};
+use crate::formats::metrics;
 use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint, file};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -43,10 +44,18 @@ pub struct Summary {
     pub generations: u32,
     /// Individuals on each island.
     pub population: usize,
-    /// The task.
-    pub task: String,
-    /// The profile.
-    pub profile: String,
+    /// The problem.
+    #[serde(default)]
+    pub problem: Kind,
+    /// Variables or bits of a genome, where all have as many.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dimensions: Option<usize>,
+    /// The task of creatures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub task: Option<String>,
+    /// The profile of creatures.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub profile: Option<String>,
     /// Evaluations that were really run.
     pub evaluations: u64,
     /// Offspring whose fitness was known already, so that they were not evaluated.
@@ -68,16 +77,16 @@ pub struct Summary {
 
 /// The result of a run that has finished: what it said then, as long as its final populations still say the same.
 /// None if it has not finished, or something of it has to be evolved again.
-pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
+pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Option<Summary> {
     let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
-    let islands = final_islands(dir, config).ok()?;
+    let islands = final_islands::<P::Gene>(dir, config).ok()?;
     let champions = champions(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
     let (_, best) = best(&champions).filter(|_| is_sound)?;
     Some(Summary {
-        best: show(&config.problem(), best),
+        best: show(problem, best),
         // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
@@ -91,34 +100,37 @@ pub fn finished(dir: &RunDir, config: &Config) -> Option<Summary> {
 ///
 /// # Errors
 /// If an island's files are missing or damaged, or ours cannot be written.
-pub fn gather(dir: &RunDir, config: &Config) -> Result<Summary, Failure> {
+pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
     let reports = write_metrics(dir, config)?;
     let champions = champions(dir, config)?;
     let best = best(&champions).ok_or_else(|| Failure::failed("no island has a champion"))?;
-    write_champion(dir, &config.problem(), &best.1.individual)?;
-    let summary = summarise(dir, config, &islands, best, &reports);
+    write_champion(dir, problem, &best.1.individual)?;
+    atlas::write(dir, config, problem, &islands)?;
+    let summary = summarise(dir, config, problem, &islands, best, &reports);
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)
 }
 
 /// What the final states of all islands and their reports come to, in the order of their index.
-pub fn summarise(
+pub fn summarise<P: Subject>(
     dir: &RunDir,
     config: &Config,
-    islands: &[Island<Gene>],
-    best: (u32, &Champion<Gene>),
+    problem: &P,
+    islands: &[Island<P::Gene>],
+    best: (u32, &Champion<P::Gene>),
     reports: &[Vec<Entry>],
 ) -> Summary {
     let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
-    let ((best_island, best), problem) = (best, config.problem());
+    let (best_island, best) = best;
+    let is_walker = config.problem == Kind::Creatures;
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     Summary {
         digest: Digest::of(islands).to_string(),
         best_fitness: best.individual.fitness.saturated(),
         best_confirmed: best.confirmed.map(Fitness::saturated),
-        best: show(&problem, best),
+        best: show(problem, best),
         best_genome: dir.champion_genome(),
         best_island,
         unit: problem.unit().to_owned(),
@@ -126,8 +138,10 @@ pub fn summarise(
         seed: config.seed.unwrap_or_default(),
         generations: config.generations,
         population: config.population,
-        task: config.task.to_string(),
-        profile: config.profile.to_string(),
+        problem: config.problem,
+        dimensions: (!is_walker).then_some(config.dimensions),
+        task: is_walker.then(|| config.task.to_string()),
+        profile: is_walker.then(|| config.profile.to_string()),
         evaluations: effort.evaluations,
         reused: effort.reused,
         failures: effort.failures(),
@@ -161,14 +175,14 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, S
 }
 
 /// The champion that is worth most, and its island: of all that each island ever had, the first of equal ones.
-pub fn best(champions: &[Vec<Champion<Gene>>]) -> Option<(u32, &Champion<Gene>)> {
+pub fn best<G: Gene>(champions: &[Vec<Champion<G>>]) -> Option<(u32, &Champion<G>)> {
     let islands = (0..).zip(champions);
     let all = islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)));
     all.reduce(|best, next| if next.1.standing() > best.1.standing() { next } else { best })
 }
 
 /// A champion's fitness as people read it, and what it was confirmed to be.
-pub fn show(problem: &Locomotion, champion: &Champion<Gene>) -> String {
+pub fn show<P: Subject>(problem: &P, champion: &Champion<P::Gene>) -> String {
     let fitness = problem.show(champion.individual.fitness);
     match champion.confirmed {
         Some(confirmed) => format!("{fitness} ({} in rapier)", problem.show(confirmed)),
@@ -177,15 +191,15 @@ pub fn show(problem: &Locomotion, champion: &Champion<Gene>) -> String {
 }
 
 /// The champions that each island has had so far.
-fn champions(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Champion<Gene>>>, StoreError> {
+fn champions<G: Gene>(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Champion<G>>>, StoreError> {
     (0..config.islands).map(|island| Ok(RecordLog::read(&dir.champions(island))?.records)).collect()
 }
 
-fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, StoreError> {
+fn final_islands<G: Gene>(dir: &RunDir, config: &Config) -> Result<Vec<Island<G>>, StoreError> {
     (0..config.islands)
         .map(|index| {
             let path = dir.checkpoint(index, config.generations);
-            let island: Island<Gene> = checkpoint::load(&path)?.island;
+            let island: Island<G> = checkpoint::load(&path)?.island;
             let misfit = island.fits(&config.archipelago(), index);
             misfit.map_err(|misfit| StoreError::damaged(&path, misfit.to_string()))?;
             Ok(island)
@@ -193,25 +207,21 @@ fn final_islands(dir: &RunDir, config: &Config) -> Result<Vec<Island<Gene>>, Sto
         .collect()
 }
 
-/// Writes a creature as the run's champion: its genome, and its body.
+/// Writes an individual as the run's champion: its genome, and its body if it has one.
 ///
 /// # Errors
 /// If the files cannot be written.
-pub fn write_champion(
+pub fn write_champion<P: Subject>(
     dir: &RunDir,
-    problem: &Locomotion,
-    champion: &Individual<Gene>,
+    problem: &P,
+    champion: &Individual<P::Gene>,
 ) -> Result<(), Failure> {
-    dir.write(&dir.champion_genome(), |out| genome_csv::write(&champion.genome, out))?;
-    // What cannot be expressed has no body to write, and was never scored.
-    let Ok(creature) = problem.express(&champion.genome) else { return Ok(()) };
-    dir.write(&dir.champion_body(), |out| {
-        urdf::write(&creature.morphology, &creature.controller, "champion", out)
-    })?;
-    Ok(())
+    dir.write(&dir.champion_genome(), |out| problem.write_genome(&champion.genome, out))?;
+    let Some(body) = problem.body(&champion.genome) else { return Ok(()) };
+    Ok(dir.write(&dir.champion_body(), |out| out.write_all(&body))?)
 }
 
-/// Keeps the best creature of a run on disk while the run goes on.
+/// Keeps the best individual of a run on disk while the run goes on.
 #[derive(Debug)]
 pub struct Podium {
     best: Fitness,
@@ -222,8 +232,8 @@ impl Podium {
     ///
     /// # Errors
     /// If they cannot be read.
-    pub fn of(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
-        let champions = champions(dir, config)?;
+    pub fn of<G: Gene>(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
+        let champions = champions::<G>(dir, config)?;
         let best = best(&champions).map_or(Fitness::WORST, |(_, best)| best.standing());
         Ok(Self { best })
     }
@@ -232,11 +242,11 @@ impl Podium {
     ///
     /// # Errors
     /// If the files cannot be written.
-    pub fn receive(
+    pub fn receive<P: Subject>(
         &mut self,
         dir: &RunDir,
-        problem: &Locomotion,
-        champion: &Champion<Gene>,
+        problem: &P,
+        champion: &Champion<P::Gene>,
     ) -> Result<(), Failure> {
         if champion.standing() <= self.best {
             return Ok(());

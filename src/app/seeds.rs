@@ -6,9 +6,8 @@
 use super::Failure;
 use super::config::{Config, POPULATION_MAX};
 use super::genomes;
-use crate::creature::Gene;
-use crate::formats::genome_csv;
-use crate::problems::{Founded, Locomotion};
+use super::subject::Subject;
+use crate::problems::Founded;
 use crate::store::{RunDir, file};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -32,9 +31,12 @@ pub struct SeedGenomes {
 
 impl SeedGenomes {
     /// What stands in the copy of some genomes, and what a configuration says of it.
-    fn of(genomes: &[Vec<Gene>]) -> (Vec<u8>, Self) {
+    fn of<P: Subject>(problem: &P, genomes: &[Vec<P::Gene>]) -> (Vec<u8>, Self) {
         let mut copy = Vec::new();
-        genome_csv::write_all(genomes, &mut copy).expect("memory takes everything");
+        for genome in genomes {
+            problem.write_genome(genome, &mut copy).expect("memory takes everything");
+            copy.push(b'\n');
+        }
         let said = Self { count: genomes.len(), digest: blake3::hash(&copy).to_string() };
         (copy, said)
     }
@@ -45,15 +47,16 @@ impl SeedGenomes {
 ///
 /// # Errors
 /// If they cannot be read, or are longer than the run allows.
-pub fn find(
+pub fn find<P: Subject>(
+    problem: &P,
     config: &mut Config,
     named: &[PathBuf],
     dropped: &[usize],
     read_from: Option<&Path>,
-) -> Result<Vec<Vec<Gene>>, Failure> {
+) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let found = match (&config.seed_genomes, read_from) {
-        _ if !named.is_empty() => read(named, genomes::dropped(dropped)?)?,
-        (Some(said), Some(file)) => load(&RunDir::at(file.with_file_name("")), said)?,
+        _ if !named.is_empty() => read(problem, named, genomes::dropped(dropped)?)?,
+        (Some(said), Some(file)) => load(problem, &RunDir::at(file.with_file_name("")), said)?,
         (Some(_), None) | (None, _) => Vec::new(),
     };
     if let Some(long) = found.iter().map(Vec::len).find(|&genes| genes > config.max_genes) {
@@ -64,7 +67,7 @@ pub fn find(
     }
     let used = found.len().min(config.islands as usize * config.population.min(POPULATION_MAX));
     let found = found[..used].to_vec();
-    config.seed_genomes = (!found.is_empty()).then(|| SeedGenomes::of(&found).1);
+    config.seed_genomes = (!found.is_empty()).then(|| SeedGenomes::of(problem, &found).1);
     Ok(found)
 }
 
@@ -72,11 +75,15 @@ pub fn find(
 ///
 /// # Errors
 /// If the disk is full or gone.
-pub fn keep(dir: &RunDir, genomes: &[Vec<Gene>]) -> Result<(), Failure> {
+pub fn keep<P: Subject>(
+    problem: &P,
+    dir: &RunDir,
+    genomes: &[Vec<P::Gene>],
+) -> Result<(), Failure> {
     if genomes.is_empty() {
         return Ok(());
     }
-    let (copy, _) = SeedGenomes::of(genomes);
+    let (copy, _) = SeedGenomes::of(problem, genomes);
     Ok(dir.write(&dir.seed_genomes(), |out| out.write_all(&copy))?)
 }
 
@@ -84,16 +91,25 @@ pub fn keep(dir: &RunDir, genomes: &[Vec<Gene>]) -> Result<(), Failure> {
 ///
 /// # Errors
 /// If the copy is not there, or not what the configuration says.
-pub fn founded(dir: &RunDir, config: &Config) -> Result<Founded<Locomotion>, Failure> {
-    let founders = config.seed_genomes.as_ref().map(|said| load(dir, said)).transpose()?;
-    Ok(Founded { problem: config.problem(), founders: founders.unwrap_or_default() })
+pub fn founded<P: Subject>(
+    dir: &RunDir,
+    config: &Config,
+    problem: P,
+) -> Result<Founded<P>, Failure> {
+    let said = config.seed_genomes.as_ref();
+    let founders = said.map(|said| load(&problem, dir, said)).transpose()?.unwrap_or_default();
+    Ok(Founded { problem, founders })
 }
 
 /// Reads the copy in a run's folder.
 ///
 /// # Errors
 /// If it is not there, or not what the configuration says.
-pub fn load(dir: &RunDir, said: &SeedGenomes) -> Result<Vec<Vec<Gene>>, Failure> {
+pub fn load<P: Subject>(
+    problem: &P,
+    dir: &RunDir,
+    said: &SeedGenomes,
+) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let path = dir.seed_genomes();
     let wrong = |reason: &dyn std::fmt::Display| {
         let path = path.display();
@@ -105,21 +121,29 @@ pub fn load(dir: &RunDir, said: &SeedGenomes) -> Result<Vec<Vec<Gene>>, Failure>
     if blake3::hash(text.as_bytes()).to_string() != said.digest {
         return Err(wrong(&"it is not what run.toml says of it"));
     }
-    let genomes = genome_csv::read_all(&text).map_err(|error| wrong(&error))?;
+    let genomes = text.split("\n\n").filter(|genome| !genome.trim().is_empty());
+    let genomes = genomes.map(|genome| problem.read_genome(genome.as_bytes(), &[]));
+    let genomes: Vec<_> = genomes.collect::<Result<_, _>>().map_err(|error| wrong(&error))?;
     match genomes.len() == said.count {
         true => Ok(genomes),
         false => Err(wrong(&"it holds another number of genomes than run.toml says")),
     }
 }
 
-fn read(named: &[PathBuf], dropped: &[usize]) -> Result<Vec<Vec<Gene>>, Failure> {
+fn read<P: Subject>(
+    problem: &P,
+    named: &[PathBuf],
+    dropped: &[usize],
+) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let files = gather(named)?;
     let read = |path: &PathBuf| {
-        genomes::read_quietly(path, dropped).map(|read| read.genome).map_err(|reason| {
+        genomes::read_for(problem, path, dropped).map_err(|reason| {
             let path = path.display();
-            Failure::usage(format!(
-                "cannot begin with {path}: {reason} (islands import sorts out what can be read)"
-            ))
+            let advice = match P::HAS_BODIES {
+                true => " (islands import sorts out what can be read)",
+                false => "",
+            };
+            Failure::usage(format!("cannot begin with {path}: {reason}{advice}"))
         })
     };
     files.iter().map(read).collect()

@@ -4,11 +4,15 @@ use super::console::say;
 use crate::view::VIEWER_VERSION;
 use std::io::ErrorKind;
 use std::os::unix::process::CommandExt;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 /// The program's name.
 const PROGRAM: &str = "rerun";
+/// How often and how many times is looked whether a viewer that was opened is still there.
+const LOOK: Duration = Duration::from_millis(50);
+const LOOKS: u32 = 20;
 
 /// Opens a viewer on a recording or an address, in the background; it stays when this process ends. Where there is
 /// none, or one of another version, it is said how to get it. Who is about to end waits for the thread.
@@ -32,7 +36,7 @@ fn try_to_open(what: &str) -> Result<(), String> {
         return Err(format!("the viewer on the path is another version ({said}); {}", remedy()));
     }
     // In a group of its own it does not hear the Ctrl-C that stops a run.
-    Command::new(PROGRAM)
+    let viewer = Command::new(PROGRAM)
         .arg(what)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
@@ -40,7 +44,24 @@ fn try_to_open(what: &str) -> Result<(), String> {
         .process_group(0)
         .spawn()
         .map_err(failed)?;
-    Ok(())
+    match early_end(viewer) {
+        Some(status) => Err(format!(
+            "the viewer ended at once ({status}); is there a screen? What it says: {PROGRAM} {what}"
+        )),
+        None => Ok(()),
+    }
+}
+
+/// How a viewer failed, if it does so within a moment: without a screen it cannot open its window.
+fn early_end(mut viewer: Child) -> Option<ExitStatus> {
+    for _ in 0..LOOKS {
+        match viewer.try_wait() {
+            Ok(None) => std::thread::sleep(LOOK),
+            Ok(Some(status)) => return Some(status).filter(|status| !status.success()),
+            Err(_) => return None,
+        }
+    }
+    None
 }
 
 /// Whether that is what a viewer of a version says of itself, such as “rerun-cli 0.36.3 [rustc …]”.

@@ -1,10 +1,13 @@
 //! One island, and its step as a pure function.
 
 use super::Archipelago;
+use super::lineage::Births;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::{Fitness, Gene, Individual, Problem, Statistics};
+use crate::evolution::survival::map_elites;
+use crate::evolution::{Fitness, Gene, Individual, Memory, Problem, Statistics, Survival};
+use crate::rng::Purpose;
 use serde::{Deserialize, Serialize};
 
 /// The whole state of an island between two generations.
@@ -21,6 +24,8 @@ pub struct Island<G> {
     pub champion: Individual<G>,
     /// What all its evaluations so far cost.
     pub effort: Effort,
+    /// What it has learned.
+    pub memory: Memory,
 }
 
 /// What one generation of one island was like: a row of the metrics.
@@ -73,6 +78,8 @@ pub struct Step<G> {
     pub island: Island<G>,
     /// What it sends, at the end of an epoch.
     pub outbox: Option<Outbox<G>>,
+    /// Who was born.
+    pub births: Births,
     /// What the generation was like.
     pub report: Report,
     /// [`Island::champion`], if it is a new one.
@@ -86,7 +93,13 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
     let Brood { population, effort, panicked } = generation::evaluate(problem, offspring, &[]);
-    let champion = best(&population).expect("a population has at least two individuals").clone();
+    let births = Births::of(0, &Memory::default(), &population);
+    let memory = Memory::first(&population, &archipelago.strategy);
+    let population = match archipelago.strategy.survival {
+        Survival::MapElites { bins } => map_elites::fill(problem, bins, population),
+        _ => population,
+    };
+    let champion = best(&population).expect("a population is never empty").clone();
     let report = Report {
         island,
         generation: 0,
@@ -95,8 +108,8 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
         immigrants: 0,
     };
     let crowned = Champion::crown(problem, &champion, 0);
-    let island = Island { index: island, generation: 0, population, champion, effort };
-    Step { island, outbox: None, report, champion: Some(crowned), panicked }
+    let island = Island { index: island, generation: 0, population, champion, effort, memory };
+    Step { island, outbox: None, births, report, champion: Some(crowned), panicked }
 }
 
 /// The next generation of an island. `immigrants` are the outboxes that
@@ -111,19 +124,29 @@ pub fn step<P: Problem>(
     archipelago: &Archipelago,
 ) -> Step<P::Gene> {
     let Archipelago { strategy, migration, .. } = archipelago;
-    let Island { index, generation, population, champion, effort: spent } = island;
+    let Island { index, generation, population, champion, effort: spent, memory } = island;
     let generation = generation + 1;
     let moment = Moment { source: archipelago.source(index), generation };
+    let strategy = &strategy.on(index, &memory);
 
-    let population = migration::immigrate::<P>(population, immigrants);
-    let couples = generation::select(&population, strategy, moment);
-    let offspring = generation::vary(problem, &population, &couples, strategy, moment);
-    let Brood { population: offspring, effort, panicked } =
+    let population = match strategy.survival {
+        // On a map immigrants compete for their cells like everybody else.
+        Survival::MapElites { bins } => {
+            let migrants = migration::in_order(immigrants).cloned();
+            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
+        }
+        _ => migration::immigrate(problem, population, immigrants, migration, moment),
+    };
+    let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
+    let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population);
-    let next = generation::survive(&population, offspring, strategy);
+    let births = Births::of(generation, &memory, &brood);
+    let mut anew = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
+    let memory = memory.after::<P>(&population, &brood, strategy, &mut anew);
+    let next = strategy.survival.survivors(problem, &population, brood, strategy.elites);
     let outbox = migration
         .emigration(generation)
-        .map(|epoch| migration::emigrate(&next, migration, index, epoch));
+        .map(|epoch| migration::emigrate(&next, migration, moment, epoch));
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
@@ -142,8 +165,9 @@ pub fn step<P: Problem>(
         population: next,
         champion: crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone()),
         effort: spent.and(effort),
+        memory,
     };
-    Step { island, outbox, report, champion: crowned, panicked }
+    Step { island, outbox, births, report, champion: crowned, panicked }
 }
 
 #[cfg(test)]
@@ -155,7 +179,7 @@ mod tests {
 
     #[test]
     fn where_nothing_is_varied_nobody_is_evaluated_whether_elite_offspring_or_immigrant() {
-        let migration = Migration { interval: 1, migrants: 1, lag: 0 };
+        let migration = Migration { interval: 1, migrants: 1, lag: 0, ..Migration::default() };
         let mut archipelago = archipelago(2, 7, migration);
         let rates = &mut archipelago.strategy.variation;
         (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);
@@ -165,6 +189,7 @@ mod tests {
         let immigrant = Individual {
             id: Id { island: 1, generation: 0, index: 0 },
             parents: [None; 2],
+            origin: 0,
             genome: vec![Bit(1); 9],
             fitness: Fitness::new(1e6),
         };

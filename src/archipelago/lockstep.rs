@@ -1,18 +1,35 @@
 //! A whole archipelago in one process: the reference that the processes must equal to the last bit.
 
 use super::island::{self, Island, Step};
-use super::{Archipelago, Outbox};
+use super::topology::Graph;
+use super::{Archipelago, Arrivals, Outbox};
 use crate::evolution::Problem;
 use std::collections::BTreeMap;
 
-/// Runs every island to `generations`, in step, and returns them in order. `observe` sees each step.
+/// Outboxes by epoch and sender.
+type Sent<G> = BTreeMap<(u32, u32), Outbox<G>>;
+
+/// Runs every island to `generations`, in step, and returns them in order. `observe` sees each step. Islands wait for
+/// each other here, whatever the archipelago says of that.
 pub fn run<P: Problem>(
     problem: &P,
     archipelago: &Archipelago,
     generations: u32,
-    mut observe: impl FnMut(&Step<P::Gene>),
+    observe: impl FnMut(&Step<P::Gene>),
 ) -> Vec<Island<P::Gene>> {
-    let mut sent: BTreeMap<(u32, u32), Outbox<P::Gene>> = BTreeMap::new();
+    run_until(problem, archipelago, generations, observe, |_| false)
+}
+
+/// The same, but the run is over earlier if `is_over` says so: it is asked before every generation, and
+/// sees all islands.
+pub fn run_until<P: Problem>(
+    problem: &P,
+    archipelago: &Archipelago,
+    generations: u32,
+    mut observe: impl FnMut(&Step<P::Gene>),
+    mut is_over: impl FnMut(&[Island<P::Gene>]) -> bool,
+) -> Vec<Island<P::Gene>> {
+    let mut sent = Sent::new();
     let mut islands: Vec<Island<P::Gene>> = (0..archipelago.islands)
         .map(|index| {
             let step = island::genesis(problem, archipelago, index);
@@ -20,12 +37,16 @@ pub fn run<P: Problem>(
             step.island
         })
         .collect();
+    let graph = archipelago.graph();
     for generation in 1..=generations {
+        if is_over(&islands) {
+            break;
+        }
         let mut outboxes = Vec::new();
         islands = islands
             .into_iter()
             .map(|island| {
-                let immigrants = immigrants(&sent, archipelago, island.index, generation);
+                let immigrants = immigrants(&sent, archipelago, &graph, island.index, generation);
                 let step = island::step(island, &immigrants, problem, archipelago);
                 observe(&step);
                 outboxes.extend(step.outbox);
@@ -37,13 +58,85 @@ pub fn run<P: Problem>(
     islands
 }
 
-fn immigrants<G: Clone>(
-    sent: &BTreeMap<(u32, u32), Outbox<G>>,
+/// A record in which an island has taken in what nobody can have sent by then.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "island {island} cannot have begun epoch {epoch} with what its record says: no order of sending leads there"
+)]
+pub struct Impossible {
+    /// The first island that gets no further.
+    pub island: u32,
+    /// The epoch that it cannot begin.
+    pub epoch: u32,
+}
+
+/// Evolves again what islands evolved that did not wait for each other, from what each of them recorded
+/// (`arrivals`, in the order of their index): to the last bit the same, in whatever order they were.
+///
+/// # Errors
+/// If a record says nothing of an epoch, or of one that can never have been sent by then.
+pub fn replay<P: Problem>(
+    problem: &P,
     archipelago: &Archipelago,
+    generations: u32,
+    arrivals: &[Vec<Arrivals>],
+    mut observe: impl FnMut(&Step<P::Gene>),
+) -> Result<Vec<Island<P::Gene>>, Impossible> {
+    let mut sent = Sent::new();
+    let mut islands: Vec<Option<Island<P::Gene>>> =
+        (0..archipelago.islands).map(|_| None).collect();
+    loop {
+        let (mut has_moved, mut stuck) = (false, None);
+        for (index, place) in (0..).zip(&mut islands) {
+            let record = arrivals.get(index as usize).map_or(&[][..], Vec::as_slice);
+            while place.as_ref().is_none_or(|island| island.generation < generations) {
+                let Some(step) = next(problem, archipelago, index, place, record, &sent) else {
+                    let generation = place.as_ref().map_or(0, |island| island.generation);
+                    let epoch = archipelago.migration.begun(generation);
+                    stuck = stuck.or(Some(Impossible { island: index, epoch }));
+                    break;
+                };
+                observe(&step);
+                sent.extend(step.outbox.map(|outbox| ((outbox.epoch, index), outbox)));
+                *place = Some(step.island);
+                has_moved = true;
+            }
+        }
+        match stuck {
+            None => return Ok(islands.into_iter().flatten().collect()),
+            Some(impossible) if !has_moved => return Err(impossible),
+            Some(_) => {}
+        }
+    }
+}
+
+/// The next step of an island, if all that its record says it takes in was sent by now.
+fn next<P: Problem>(
+    problem: &P,
+    archipelago: &Archipelago,
+    index: u32,
+    place: &mut Option<Island<P::Gene>>,
+    record: &[Arrivals],
+    sent: &Sent<P::Gene>,
+) -> Option<Step<P::Gene>> {
+    let Some(island) = place else { return Some(island::genesis(problem, archipelago, index)) };
+    let mut immigrants = Vec::new();
+    if let Some(epoch) = archipelago.migration.beginning(island.generation + 1) {
+        for &(source, epoch) in &record.get(epoch as usize)?.taken {
+            immigrants.push(sent.get(&(epoch, source))?.clone());
+        }
+    }
+    Some(island::step(place.take()?, &immigrants, problem, archipelago))
+}
+
+fn immigrants<G: Clone>(
+    sent: &Sent<G>,
+    archipelago: &Archipelago,
+    graph: &Graph,
     island: u32,
     generation: u32,
 ) -> Vec<Outbox<G>> {
     let Some(epoch) = archipelago.migration.immigration(generation) else { return Vec::new() };
-    let sources = archipelago.in_neighbours(island);
+    let sources = graph.in_neighbours(island);
     sources.iter().filter_map(|&source| sent.get(&(epoch, source)).cloned()).collect()
 }

@@ -2,39 +2,70 @@
 //!
 //! With interval I, epoch k is generations kI + 1 to (k + 1)I. It begins by taking in the outboxes of epoch
 //! k - 1 - L of every in-neighbour, where there is one, and ends by sending outbox k. With a lag L of 1 or
-//! more an island evolves on while its neighbours' migrants are under way.
+//! more an island evolves on while its neighbours' migrants are under way. Where islands do not wait for each other,
+//! an epoch begins by taking in what has arrived, of whatever epoch.
 
+use super::policy::{Emigrants, ExchangeMode, Replacement};
+use crate::evolution::generation::Moment;
 use crate::evolution::population::{Population, ranking};
 use crate::evolution::{Individual, Problem};
+use crate::rng::{Purpose, Stream};
 use serde::{Deserialize, Serialize};
-use std::cmp::Reverse;
 
 /// The most individuals that one outbox can carry.
 pub const MIGRANTS_MAX: usize = 32;
 
-/// When and how much islands exchange.
+/// What islands exchange, when and how much.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Migration {
     /// Generations between two exchanges, at least 1.
     pub interval: u32,
     /// Individuals that an island sends at each exchange, at most [`MIGRANTS_MAX`].
     pub migrants: usize,
-    /// Epochs by which immigrants are older than they could be.
+    /// Epochs by which immigrants are older than they could be, where islands wait for each other.
     pub lag: u32,
+    /// Who is sent.
+    pub emigrants: Emigrants,
+    /// Whom immigrants replace.
+    pub replacement: Replacement,
+    /// Whether islands wait for each other.
+    pub exchange: ExchangeMode,
+}
+
+impl Default for Migration {
+    fn default() -> Self {
+        Self {
+            interval: 5,
+            migrants: 2,
+            lag: 1,
+            emigrants: Emigrants::Best,
+            replacement: Replacement::Worst,
+            exchange: ExchangeMode::Sync,
+        }
+    }
 }
 
 impl Migration {
-    /// The epoch whose outboxes are taken in at the beginning of `generation`, if any.
-    pub fn immigration(&self, generation: u32) -> Option<u32> {
+    /// The epoch that begins with `generation`, if any.
+    pub fn beginning(&self, generation: u32) -> Option<u32> {
         let before = generation.checked_sub(1)?;
-        let begins = before.is_multiple_of(self.interval);
-        begins.then_some(before / self.interval)?.checked_sub(1 + self.lag)
+        before.is_multiple_of(self.interval).then_some(before / self.interval)
+    }
+
+    /// The epochs that have begun by the end of `generation`: those below this one.
+    pub fn begun(&self, generation: u32) -> u32 {
+        generation.div_ceil(self.interval)
+    }
+
+    /// The epoch whose outboxes are taken in at the beginning of `generation`, if any, where islands wait for each
+    /// other.
+    pub fn immigration(&self, generation: u32) -> Option<u32> {
+        self.beginning(generation)?.checked_sub(1 + self.lag)
     }
 
     /// The first epoch that an island whose `generation` is behind it will take in from then on.
     pub fn next_immigration(&self, generation: u32) -> u32 {
-        let next_to_begin = generation.div_ceil(self.interval);
-        next_to_begin.saturating_sub(1).saturating_sub(self.lag)
+        self.begun(generation).saturating_sub(1).saturating_sub(self.lag)
     }
 
     /// The epoch whose outbox is sent at the end of `generation`, if any.
@@ -51,43 +82,55 @@ pub struct Outbox<G> {
     pub island: u32,
     /// The epoch that it ends.
     pub epoch: u32,
-    /// Copies of its best individuals, the best first.
+    /// Copies of some of its individuals, the best first.
     pub migrants: Vec<Individual<G>>,
 }
 
-/// Phase: the outbox of an epoch, copies of the best of the population.
+/// Phase: the outbox of an epoch, copies of some of the population at the end of a generation.
 pub fn emigrate<G: Clone>(
     population: &[Individual<G>],
     migration: &Migration,
-    island: u32,
+    moment: Moment,
     epoch: u32,
 ) -> Outbox<G> {
-    let best = ranking(population).into_iter().take(migration.migrants);
-    Outbox { island, epoch, migrants: best.map(|i| population[i].clone()).collect() }
+    let draw = |slot| stream(moment, slot, Purpose::Emigration);
+    let chosen = migration.emigrants.choose(&ranking(population), migration.migrants, draw);
+    let migrants = chosen.into_iter().map(|i| population[i].clone()).collect();
+    Outbox { island: moment.source.island, epoch, migrants }
 }
 
-/// Phase: takes immigrants in. Each replaces the worst individual there is, if it is better; one whose
-/// genome lives here already is turned away. Outboxes count in the order of their senders, so that the
-/// result does not depend on which arrived first.
+/// Phase: takes immigrants in at the beginning of a generation. Each replaces whom the policy says, if anybody; one
+/// whose genome lives here already is turned away. They count [`in_order`], so that the result does not depend on which
+/// arrived first.
 pub fn immigrate<P: Problem>(
+    problem: &P,
     mut population: Population<P::Gene>,
     outboxes: &[Outbox<P::Gene>],
+    migration: &Migration,
+    moment: Moment,
 ) -> Population<P::Gene> {
-    let mut outboxes: Vec<&Outbox<P::Gene>> = outboxes.iter().collect();
-    outboxes.sort_by_key(|outbox| outbox.island);
-    for migrant in outboxes.into_iter().flat_map(|outbox| &outbox.migrants) {
-        let Some(worst) = worst(&population) else { break };
-        let known = population.iter().any(|resident| resident.genome == migrant.genome);
-        if !known && migrant.fitness > population[worst].fitness {
-            population[worst] = migrant.clone();
+    for (number, migrant) in (0..).zip(in_order(outboxes)) {
+        if population.iter().any(|resident| resident.genome == migrant.genome) {
+            continue;
+        }
+        let mut rng = stream(moment, number, Purpose::Immigration);
+        let replaced = migration.replacement.whom(problem, &population, migrant, &mut rng);
+        if let Some(replaced) = replaced {
+            population[replaced] = migrant.clone();
         }
     }
     population
 }
 
-/// The worst individual, the last of equal ones.
-fn worst<G>(population: &[Individual<G>]) -> Option<usize> {
-    (0..population.len()).min_by_key(|&i| (population[i].fitness, Reverse(i)))
+/// All migrants of outboxes, in the order in which they count: of their senders.
+pub fn in_order<G>(outboxes: &[Outbox<G>]) -> impl Iterator<Item = &Individual<G>> {
+    let mut outboxes: Vec<&Outbox<G>> = outboxes.iter().collect();
+    outboxes.sort_by_key(|outbox| outbox.island);
+    outboxes.into_iter().flat_map(|outbox| &outbox.migrants)
+}
+
+fn stream(Moment { source, generation }: Moment, index: u32, purpose: Purpose) -> Stream {
+    source.stream(generation, index, purpose)
 }
 
 #[cfg(test)]
@@ -96,7 +139,7 @@ mod tests {
 
     #[test]
     fn epochs_follow_the_protocol() {
-        let migration = Migration { interval: 5, migrants: 2, lag: 1 };
+        let migration = Migration::default();
         // Epoch k is generations 5k + 1 to 5k + 5.
         let sent: Vec<_> =
             (0..=15).filter_map(|g| migration.emigration(g).map(|e| (g, e))).collect();
@@ -112,7 +155,7 @@ mod tests {
     fn the_next_epoch_to_be_taken_in_is_the_one_that_the_generations_to_come_name_first() {
         for (interval, lag) in (1..=6).flat_map(|interval| (0..=4).map(move |lag| (interval, lag)))
         {
-            let migration = Migration { interval, migrants: 2, lag };
+            let migration = Migration { interval, lag, ..Migration::default() };
             for generation in 0..100 {
                 let first = (generation + 1..).find_map(|later| migration.immigration(later));
                 assert_eq!(

@@ -1,20 +1,23 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
-//! [`topology`] and [`migration`] say who sends what when; [`island`] is one island's step, a pure function;
-//! [`inbox`] is the receiving end of the exchange protocol, and [`voyage`] the whole of it as an island
-//! sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
+//! [`algorithm`] says what searches; [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`] is one island's step, a pure function;
+//! [`inbox`] is the receiving end of the exchange protocol, [`arrivals`] that of an exchange in which nobody waits,
+//! and [`voyage`] the whole of it as an island sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!
 //! Architecture invariant: pure, like [`crate::evolution`]. Whether migrants travel through shared memory,
 //! a file or a variable is not known here.
 
+pub mod algorithm;
+pub mod arrivals;
 pub mod digest;
 pub mod inbox;
 pub mod island;
 pub mod lineage;
 pub mod lockstep;
 pub mod migration;
+pub mod policy;
 pub mod soundness;
 pub mod topology;
 pub mod voyage;
@@ -22,13 +25,16 @@ pub mod voyage;
 #[cfg(test)]
 mod tests;
 
+pub use algorithm::Algorithm;
+pub use arrivals::Arrivals;
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};
 pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
+pub use policy::{Emigrants, ExchangeMode, Replacement};
 pub use soundness::Misfit;
-pub use topology::Topology;
+pub use topology::{Graph, Topology};
 pub use voyage::{Deed, Voyage};
 
 use crate::evolution::Strategy;
@@ -56,13 +62,18 @@ impl Archipelago {
         Source { seed: self.seed, island }
     }
 
+    /// Who sends to whom. It takes time to make: who asks for many islands keeps it.
+    pub fn graph(&self) -> Graph {
+        self.topology.graph(self.islands, self.seed)
+    }
+
     /// Whom `island` receives from.
     pub fn in_neighbours(&self, island: u32) -> Vec<u32> {
-        self.topology.in_neighbours(island, self.islands)
+        self.graph().in_neighbours(island).to_vec()
     }
 
     /// Whom `island` sends to.
     pub fn out_neighbours(&self, island: u32) -> Vec<u32> {
-        self.topology.out_neighbours(island, self.islands)
+        self.graph().out_neighbours(island).to_vec()
     }
 }

@@ -1,7 +1,7 @@
 //! Whether what was read from a file can be of this run: a checksum only says that it is as somebody wrote it,
 //! and evolution relies on more.
 
-use super::{Archipelago, Island, Outbox};
+use super::{Archipelago, ExchangeMode, Island, Outbox};
 use crate::evolution::{Gene, Id, Individual};
 
 /// Why something is no state of an island.
@@ -25,6 +25,9 @@ pub enum Misfit {
     /// Someone is better than the champion.
     #[error("its champion is not the best")]
     Champion,
+    /// What it has learned cannot be.
+    #[error("it has learned what cannot be learned")]
+    Memory,
     /// There are not as many evaluations as ended somehow.
     #[error("its evaluations do not add up")]
     Effort,
@@ -38,12 +41,14 @@ impl<G: Gene> Island<G> {
     pub fn fits(&self, archipelago: &Archipelago, index: u32) -> Result<(), Misfit> {
         let Island { population, champion, effort, .. } = self;
         require(self.index == index && index < archipelago.islands, Misfit::Index)?;
-        require(population.len() == archipelago.strategy.population, Misfit::Size)?;
+        require(archipelago.strategy.sizes().contains(&population.len()), Misfit::Size)?;
+        require(self.memory.is_sound(&archipelago.strategy), Misfit::Memory)?;
         for individual in population.iter().chain([champion]) {
-            possible(individual, archipelago, self.generation)?;
+            possible(individual, archipelago, index, self.generation)?;
         }
         require(population.iter().all(|i| i.fitness <= champion.fitness), Misfit::Champion)?;
-        let born = (u64::from(self.generation) + 1).saturating_mul(population.len() as u64);
+        let born =
+            (u64::from(self.generation) + 1).saturating_mul(archipelago.strategy.population as u64);
         let tried = effort.evaluations.checked_add(effort.reused);
         let ended = effort.outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
         require(ended == Some(effort.evaluations), Misfit::Effort)?;
@@ -61,21 +66,26 @@ impl<G: Gene> Outbox<G> {
             && self
                 .migrants
                 .iter()
-                .all(|migrant| possible(migrant, archipelago, generation).is_ok())
+                .all(|migrant| possible(migrant, archipelago, source, generation).is_ok())
     }
 }
 
-/// Whether there can be such an individual in a run by the end of `generation`.
+/// Whether there can be such an individual on an island by the end of `generation`. Where islands do not wait for each
+/// other, who came from elsewhere may be of any generation.
 fn possible<G: Gene>(
     individual: &Individual<G>,
     run: &Archipelago,
+    index: u32,
     generation: u32,
 ) -> Result<(), Misfit> {
-    let Individual { id, parents, genome, .. } = individual;
+    let Individual { id, parents, origin, genome, .. } = individual;
     let lengths = 1..=run.strategy.variation.genes_max;
-    let exists = |id: &Id| id.island < run.islands && id.generation <= generation;
+    let is_async = run.migration.exchange == ExchangeMode::Async;
+    let was_born = |id: &Id| id.generation <= generation || (is_async && id.island != index);
+    let exists = |id: &Id| id.island < run.islands && was_born(id);
     require(lengths.contains(&genome.len()), Misfit::Length)?;
     require(genome.iter().all(Gene::is_valid), Misfit::Gene)?;
+    require(*origin <= id.generation, Misfit::Lineage)?;
     require(parents.iter().flatten().chain([id]).all(exists), Misfit::Lineage)
 }
 
@@ -89,11 +99,12 @@ mod tests {
     use crate::archipelago::tests::toy::{Bit, Toy, archipelago};
     use crate::archipelago::{Migration, lockstep};
     use crate::evolution::Fitness;
+    use crate::evolution::cma::Cma;
 
     const GENERATION: u32 = 6;
 
     fn run() -> Archipelago {
-        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0 })
+        archipelago(3, 1, Migration { interval: 2, migrants: 1, lag: 0, ..Migration::default() })
     }
 
     #[test]
@@ -109,7 +120,7 @@ mod tests {
     #[test]
     fn a_state_that_breaks_a_rule_is_refused() {
         type Break = fn(&mut Island<Bit>);
-        let rules: [(Misfit, Break); 15] = [
+        let rules: [(Misfit, Break); 18] = [
             (Misfit::Size, |i| drop(i.population.pop())),
             (Misfit::Size, |i| i.population.push(i.champion.clone())),
             (Misfit::Length, |i| i.population[1].genome.clear()),
@@ -120,6 +131,9 @@ mod tests {
             (Misfit::Lineage, |i| i.population[0].id.generation = GENERATION + 1),
             (Misfit::Lineage, |i| i.champion.id.generation = GENERATION + 1),
             (Misfit::Lineage, |i| i.champion.parents[1] = Some(Id { island: 3, ..i.champion.id })),
+            (Misfit::Lineage, |i| i.champion.origin = i.champion.id.generation + 1),
+            (Misfit::Memory, |i| i.memory.amount_scale = f64::NAN),
+            (Misfit::Memory, |i| i.memory.cma = Some(Box::new(Cma::about(vec![0.5])))),
             (Misfit::Champion, |i| i.population[2].fitness = Fitness::new(999.0)),
             (Misfit::Champion, |i| i.champion.fitness = Fitness::WORST),
             (Misfit::Effort, |i| i.effort.evaluations += 1),

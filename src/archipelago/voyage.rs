@@ -12,12 +12,15 @@
 //!    is over.
 //! 3. What is handed to [`Voyage::begin`] was saved by a voyage of the same island.
 //! 4. [`Voyage::advance`] is called again and again, also while it has nothing to do.
+//! 5. Where nobody waits, what an island takes in is in its record, durably, before it is evolved with, and the
+//!    record is handed to [`Voyage::with_record`]. The bits are then those of the records.
 //!
 //! That a reborn island sends again what it sent last is no rule: it only spares its neighbours a request.
 
+use super::arrivals::{Arrivals, Errand, Mailbox};
 use super::inbox::{Arrival, Inbox};
 use super::island::{self, Island, Step};
-use super::{Archipelago, Outbox};
+use super::{Archipelago, ExchangeMode, Outbox};
 use crate::evolution::Problem;
 use std::time::Duration;
 
@@ -31,10 +34,18 @@ pub struct Voyage<'a, P: Problem> {
     index: u32,
     generations: u32,
     island: Option<Island<P::Gene>>,
-    inbox: Inbox<P::Gene>,
+    intake: Intake<P::Gene>,
     // When it began to wait or last asked or got something, if it waits.
     silent_since: Option<Duration>,
     asks_at_once: bool,
+}
+
+/// Where what arrives is kept.
+enum Intake<G> {
+    /// Until it is time for it.
+    Inbox(Inbox<G>),
+    /// Until the next epoch begins, where nobody waits.
+    Mailbox(Mailbox<G>),
 }
 
 /// What an island does next.
@@ -51,6 +62,13 @@ pub enum Deed<G> {
         /// The first epoch that is missing.
         epoch: u32,
     },
+    /// It begins an epoch with this, where nobody waits. Before its owner calls [`Voyage::advance`] again, it appends
+    /// this to the record and makes it durable.
+    Record(Arrivals),
+    /// It needs these outboxes again, by sender and epoch, which an earlier life took in. Its owner reads them in the
+    /// senders' journals and hands them to [`Voyage::recall`]; one that is not there will be, when its sender has
+    /// evolved it again.
+    Recall(Vec<(u32, u32)>),
     /// There is nothing to do until something arrives, or time goes by.
     Wait,
     /// It has evolved all its generations, and only serves its neighbours from then on.
@@ -67,19 +85,38 @@ impl<'a, P: Problem> Voyage<'a, P> {
         generations: u32,
         saved: Option<Island<P::Gene>>,
     ) -> Self {
-        let generation = saved.as_ref().map_or(0, |island| island.generation);
-        let next_epoch = archipelago.migration.next_immigration(generation);
+        let generation = saved.as_ref().map(|island| island.generation);
+        let migration = archipelago.migration;
+        let sources = archipelago.in_neighbours(index);
+        let intake = match migration.exchange {
+            ExchangeMode::Sync => {
+                let next_epoch = migration.next_immigration(generation.unwrap_or(0));
+                Intake::Inbox(Inbox::new(sources, next_epoch))
+            }
+            ExchangeMode::Async => Intake::Mailbox(Mailbox::new(sources, generation, Vec::new())),
+        };
         Self {
             problem,
             archipelago,
             index,
             generations,
-            inbox: Inbox::new(archipelago.in_neighbours(index), next_epoch),
+            intake,
             silent_since: None,
             // What was on its way to the one that saved this state died with it.
             asks_at_once: saved.is_some(),
             island: saved,
         }
+    }
+
+    /// The voyage of an island whose earlier lives recorded this, which fits it
+    /// ([`check_record`](super::arrivals::check_record)). Where islands wait for each other there is no record.
+    pub fn with_record(mut self, record: Vec<Arrivals>) -> Self {
+        if let Intake::Mailbox(mailbox) = &mut self.intake {
+            let generation = self.island.as_ref().map(|island| island.generation);
+            let sources = self.archipelago.in_neighbours(self.index);
+            *mailbox = Mailbox::new(sources, generation, record);
+        }
+        self
     }
 
     /// The island as it is; none before generation 0 was evolved.
@@ -90,11 +127,21 @@ impl<'a, P: Problem> Voyage<'a, P> {
     /// Hands in what arrived.
     pub fn receive(&mut self, outbox: Outbox<P::Gene>) -> Arrival {
         let is_due = self.due_epoch() == Some(outbox.epoch);
-        let arrival = self.inbox.accept(outbox);
+        let arrival = match &mut self.intake {
+            Intake::Inbox(inbox) => inbox.accept(outbox),
+            Intake::Mailbox(mailbox) => mailbox.accept(outbox),
+        };
         if is_due && arrival == Arrival::Kept {
             self.silent_since = None;
         }
         arrival
+    }
+
+    /// Hands in what was read in a journal because of a [`Deed::Recall`].
+    pub fn recall(&mut self, outbox: Outbox<P::Gene>) {
+        if let Intake::Mailbox(mailbox) = &mut self.intake {
+            mailbox.recall(outbox);
+        }
     }
 
     /// Does what is next, and says what that was. `now` is a reading of a monotonic clock, from any start.
@@ -102,17 +149,22 @@ impl<'a, P: Problem> Voyage<'a, P> {
         if self.has_arrived() {
             return Deed::Arrived;
         }
-        if let Some((epoch, sources)) = self.waits_for() {
+        let beginning = self.beginning();
+        if let (Intake::Mailbox(mailbox), Some(generation)) = (&mut self.intake, beginning) {
+            match mailbox.prepare(generation) {
+                Some(Errand::Record(arrivals)) => return Deed::Record(arrivals),
+                Some(Errand::Recall(outboxes)) => return Deed::Recall(outboxes),
+                None => {}
+            }
+        } else if let Some((epoch, sources)) = self.waits_for() {
             return if self.asks(now) { Deed::Ask { sources, epoch } } else { Deed::Wait };
         }
         self.silent_since = None;
-        let immigrants = self.due_epoch().and_then(|epoch| self.inbox.take(epoch));
+        let immigrants = self.take_in();
         let Self { problem, archipelago, .. } = *self;
         let step = match self.island.take() {
             None => island::genesis(problem, archipelago, self.index),
-            Some(island) => {
-                island::step(island, &immigrants.unwrap_or_default(), problem, archipelago)
-            }
+            Some(island) => island::step(island, &immigrants, problem, archipelago),
         };
         self.island = Some(step.island.clone());
         Deed::Evolved(Box::new(step))
@@ -121,15 +173,39 @@ impl<'a, P: Problem> Voyage<'a, P> {
     /// The epoch that it cannot go on without, and the in-neighbours whose outbox of it is missing; none if
     /// it need not wait.
     pub fn waits_for(&self) -> Option<(u32, Vec<u32>)> {
-        let epoch = self.due_epoch()?;
-        let missing = self.inbox.missing(epoch);
-        (!missing.is_empty()).then_some((epoch, missing))
+        match &self.intake {
+            Intake::Inbox(inbox) => {
+                let epoch = self.due_epoch()?;
+                let missing = inbox.missing(epoch);
+                (!missing.is_empty()).then_some((epoch, missing))
+            }
+            Intake::Mailbox(mailbox) => {
+                let (source, epoch) = self.beginning().and(mailbox.missing().first().copied())?;
+                Some((epoch, vec![source]))
+            }
+        }
     }
 
-    /// The epoch that the next generation takes in.
+    /// What the next generation takes in.
+    fn take_in(&mut self) -> Vec<Outbox<P::Gene>> {
+        let (due, beginning) = (self.due_epoch(), self.beginning());
+        match &mut self.intake {
+            Intake::Inbox(inbox) => due.and_then(|epoch| inbox.take(epoch)).unwrap_or_default(),
+            Intake::Mailbox(mailbox) => beginning.map(|_| mailbox.take()).unwrap_or_default(),
+        }
+    }
+
+    /// The next generation, if an epoch begins with it.
+    fn beginning(&self) -> Option<u32> {
+        let next = self.island.as_ref().filter(|_| !self.has_arrived())?.generation + 1;
+        self.archipelago.migration.beginning(next).map(|_| next)
+    }
+
+    /// The epoch that the next generation takes in, where islands wait for each other.
     fn due_epoch(&self) -> Option<u32> {
-        let island = self.island.as_ref().filter(|_| !self.has_arrived())?;
-        self.archipelago.migration.immigration(island.generation + 1)
+        let is_sync = self.archipelago.migration.exchange == ExchangeMode::Sync;
+        let next = self.beginning().filter(|_| is_sync)?;
+        self.archipelago.migration.immigration(next)
     }
 
     fn has_arrived(&self) -> bool {
@@ -152,6 +228,10 @@ impl<'a, P: Problem> Voyage<'a, P> {
 impl<P: Problem> Voyage<'_, P> {
     /// The voyage with another window of its inbox.
     pub(super) fn with_window(self, window: u32) -> Self {
-        Self { inbox: self.inbox.with_window(window), ..self }
+        let intake = match self.intake {
+            Intake::Inbox(inbox) => Intake::Inbox(inbox.with_window(window)),
+            mailbox => mailbox,
+        };
+        Self { intake, ..self }
     }
 }

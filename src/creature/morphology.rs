@@ -98,6 +98,14 @@ impl Morphology {
         bottoms.fold(0.0, f64::min)
     }
 
+    /// How high the body is at rest, in metres.
+    pub fn height_m(&self) -> f64 {
+        let tops = self.links.iter().zip(self.rest_poses()).map(|(link, pose)| {
+            pose.translation.z + link.shape.reach_m(&pose.rotation, &Vector3::z())
+        });
+        tops.fold(0.0, f64::max) - self.lowest_m()
+    }
+
     /// The largest distance of a link's centre from the root at rest, plus that link's own half diagonal, in
     /// metres: how far the body reaches.
     pub fn extent_m(&self) -> f64 {

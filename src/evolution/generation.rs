@@ -1,28 +1,17 @@
-//! One generation, as a list of named phases: [`select`], [`vary`], [`evaluate`], [`survive`].
+//! One generation, as a list of named phases: [`reproduce`], which is [`select`] and [`vary`] where there are parents,
+//! and [`evaluate`]. Who survives is [`super::survival`]'s.
 
 use super::fitness::{Evaluation, Fitness, Outcome};
 use super::individual::{Id, Individual};
+use super::memory::Memory;
 use super::population::Population;
-use super::problem::Problem;
-use super::selection::Selection;
-use super::survival;
-use super::variation::{Variation, happens};
+use super::problem::{Gene, Problem};
+use super::strategy::{Reproduction, Strategy};
+use super::survival::{Survival, sharing};
+use super::variation::happens;
 use crate::rng::{Purpose, Source};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-
-/// How one island's population evolves.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Strategy {
-    /// Individuals, at least 2.
-    pub population: usize,
-    /// How many of the best live on unchanged, fewer than `population`.
-    pub elites: usize,
-    /// How parents are picked.
-    pub selection: Selection,
-    /// How offspring differ from them.
-    pub variation: Variation,
-}
 
 /// Where the draws of one generation come from and what its children are called.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +26,11 @@ impl Moment {
     fn id(self, index: usize) -> Id {
         Id { island: self.source.island, generation: self.generation, index: index as u32 }
     }
+
+    /// Somebody without parents.
+    fn newborn<G>(self, index: usize, genome: Vec<G>) -> Offspring<G> {
+        Offspring { id: self.id(index), parents: [None; 2], origin: self.generation, genome }
+    }
 }
 
 /// A genome that was not evaluated yet.
@@ -46,6 +40,8 @@ pub struct Offspring<G> {
     pub id: Id,
     /// Whom it comes from.
     pub parents: [Option<Id>; 2],
+    /// The generation in which its oldest ancestor was born.
+    pub origin: u32,
     /// Its genes.
     pub genome: Vec<G>,
 }
@@ -89,44 +85,89 @@ pub fn genesis<P: Problem>(
     let moment = Moment { source, generation: 0 };
     (0..strategy.population)
         .map(|index| {
-            let genome = first(problem, strategy, source, index);
-            Offspring { id: moment.id(index), parents: [None; 2], genome }
+            let genome = first(problem, strategy, moment, index);
+            moment.newborn(index, genome)
         })
         .collect()
 }
 
-/// Genome number `index` of generation 0: a founder's or, where there is none, a random one.
+/// Genome number `index` of those who have no parents: a founder's in generation 0 or, where there is none, a random
+/// one.
 pub fn first<P: Problem>(
     problem: &P,
     strategy: &Strategy,
-    source: Source,
+    moment: Moment,
     index: usize,
 ) -> Vec<P::Gene> {
+    let Moment { source, generation } = moment;
     let founder = problem.founder(source.island, index, strategy.population);
-    founder.unwrap_or_else(|| {
-        let mut rng = source.stream(0, index as u32, Purpose::Genesis);
+    founder.filter(|_| generation == 0).unwrap_or_else(|| {
+        let mut rng = source.stream(generation, index as u32, Purpose::Genesis);
         let mut genome = problem.random_genome(&mut rng);
         genome.truncate(strategy.variation.genes_max);
         genome
     })
 }
 
-/// Phase: picks the parents of each offspring, two indices into the population.
-pub fn select<G>(
-    population: &[Individual<G>],
+/// Phase: the offspring of a population. `memory` is what its island has learned.
+pub fn reproduce<P: Problem>(
+    problem: &P,
+    population: &[Individual<P::Gene>],
+    memory: &Memory,
     strategy: &Strategy,
     moment: Moment,
+) -> Vec<Offspring<P::Gene>> {
+    let brood = strategy.brood();
+    let random = |index| moment.newborn(index, first(problem, strategy, moment, index));
+    match strategy.reproduction {
+        Reproduction::Parents => {
+            let newcomers = usize::from(strategy.survival == Survival::Afpo).min(brood);
+            let couples = select(problem, population, strategy, moment, brood - newcomers);
+            let mut offspring = vary(problem, population, &couples, strategy, moment);
+            offspring.extend((couples.len()..brood).map(random));
+            offspring
+        }
+        Reproduction::Random => (0..brood).map(random).collect(),
+        Reproduction::CmaEs => sample(problem, memory, strategy, moment),
+    }
+}
+
+/// Offspring drawn from the distribution that an island has learned.
+fn sample<P: Problem>(
+    problem: &P,
+    memory: &Memory,
+    strategy: &Strategy,
+    moment: Moment,
+) -> Vec<Offspring<P::Gene>> {
+    let sampler = memory.cma.as_ref().map(|cma| cma.sampler());
+    let draw = |index: usize| {
+        // Whatever is no number in a genome stays as in a random one.
+        let mut genome = first(problem, strategy, moment, index);
+        let mut rng = moment.source.stream(moment.generation, index as u32, Purpose::Sampling);
+        let drawn = sampler.as_ref().map(|sampler| sampler.draw(&mut rng)).unwrap_or_default();
+        let values = genome.iter_mut().flat_map(Gene::values_mut);
+        values.zip(drawn).for_each(|(value, drawn)| *value = drawn);
+        moment.newborn(index, genome)
+    };
+    (0..strategy.brood()).map(draw).collect()
+}
+
+/// Phase: picks the parents of each of so many offspring, two indices into the population.
+pub fn select<P: Problem>(
+    problem: &P,
+    population: &[Individual<P::Gene>],
+    strategy: &Strategy,
+    moment: Moment,
+    offspring: usize,
 ) -> Vec<[usize; 2]> {
-    let fitness: Vec<Fitness> = population.iter().map(|i| i.fitness).collect();
-    let selector = strategy.selection.prepare(&fitness);
-    let brood = strategy.population - strategy.elites;
-    (0..brood)
-        .map(|index| {
-            let Moment { source, generation } = moment;
-            let mut rng = source.stream(generation, index as u32, Purpose::Selection);
-            [selector.pick(&mut rng), selector.pick(&mut rng)]
-        })
-        .collect()
+    let fitness: Vec<Fitness> = match strategy.survival {
+        Survival::Sharing { radius } => sharing::shared(problem, population, radius),
+        _ => population.iter().map(|i| i.fitness).collect(),
+    };
+    let Moment { source, generation } = moment;
+    let stream = |index| source.stream(generation, index as u32, Purpose::Selection);
+    let selection = strategy.parenthood();
+    selection.prepare(&fitness).couples(selection, offspring, stream)
 }
 
 /// Phase: recombines and mutates.
@@ -142,7 +183,10 @@ pub fn vary<P: Problem>(
         let (genome, two_parents) =
             breed(problem, strategy, moment, index, &mother.genome, &father.genome);
         let parents = [Some(mother.id), two_parents.then_some(father.id)];
-        Offspring { id: moment.id(index), parents, genome }
+        let oldest = if two_parents { mother.origin.min(father.origin) } else { mother.origin };
+        // Where islands do not wait for each other, parents may come from a later generation.
+        let origin = oldest.min(moment.generation);
+        Offspring { id: moment.id(index), parents, origin, genome }
     };
     couples.iter().enumerate().map(offspring).collect()
 }
@@ -209,9 +253,10 @@ pub fn evaluate<P: Problem>(
     let population = offspring
         .into_iter()
         .zip(scores)
-        .map(|(Offspring { id, parents, genome }, fitness)| Individual {
+        .map(|(Offspring { id, parents, origin, genome }, fitness)| Individual {
             id,
             parents,
+            origin,
             genome,
             fitness,
         })
@@ -226,13 +271,4 @@ fn effort(evaluations: &[Evaluation], offspring: usize) -> Effort {
         reused: (offspring - evaluations.len()) as u64,
         outcomes: Outcome::ALL.map(count),
     }
-}
-
-/// Phase: makes the next population of the old one and its offspring.
-pub fn survive<G: Clone>(
-    old: &[Individual<G>],
-    offspring: Population<G>,
-    strategy: &Strategy,
-) -> Population<G> {
-    survival::elitist(old, offspring, strategy.elites)
 }

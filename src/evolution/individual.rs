@@ -25,8 +25,10 @@ impl std::fmt::Display for Id {
 pub struct Individual<G> {
     /// Where and when it was born; it keeps this when it migrates or survives.
     pub id: Id,
-    /// Whom it comes from: none in generation 0, one where crossover did not happen, else two.
+    /// Whom it comes from: nobody if it is random, one where crossover did not happen, else two.
     pub parents: [Option<Id>; 2],
+    /// The generation in which its oldest ancestor was born: its age is counted from there.
+    pub origin: u32,
     /// Its genes.
     pub genome: Vec<G>,
     /// What they are worth.

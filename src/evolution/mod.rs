@@ -2,19 +2,23 @@
 //!
 //! Read in this order: a [`Problem`] says what a genome is and how good it is ([`Fitness`]); an
 //! [`Individual`] is an evaluated genome with a parentage, a [`Population`] an ordered list of them;
-//! [`Selection`] picks parents, [`variation`] recombines and mutates, [`survival`] decides who stays, and
-//! [`generation`] strings these phases together; [`sharing`] deals evaluations out to threads.
+//! [`Selection`] picks parents, [`variation`] recombines and mutates, [`survival`] decides who stays; [`generation`] has
+//! these phases, [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`sharing`] deals
+//! evaluations out to threads.
 //!
 //! Architecture invariant: pure. Nothing here knows a creature, a clock, a file or a process, and every
 //! stochastic function takes the stream it draws from.
 
+pub mod cma;
 pub mod fitness;
 pub mod generation;
 pub mod individual;
+pub mod memory;
 pub mod population;
 pub mod problem;
 pub mod selection;
 pub mod sharing;
+pub mod strategy;
 pub mod survival;
 pub mod variation;
 
@@ -22,9 +26,11 @@ pub mod variation;
 mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
-pub use generation::Strategy;
 pub use individual::{Id, Individual};
+pub use memory::Memory;
 pub use population::{Population, Spread, Statistics};
 pub use problem::{Gene, Problem};
 pub use selection::Selection;
-pub use variation::Variation;
+pub use strategy::{Adaptation, Reproduction, Strategy};
+pub use survival::Survival;
+pub use variation::{Crossover, Mutation, Variation};

@@ -30,8 +30,10 @@ pub struct Statistics {
     pub mean: Fitness,
     /// The median of all, failures counted as worst; the upper one of an even number.
     pub median: Fitness,
-    /// The mean distance of two individuals, from 0 (all equal) to 1.
+    /// The mean distance of two genomes, from 0 (all equal) to 1.
     pub diversity: f64,
+    /// The mean distance of two phenotypes in the plane of [`Problem::features`], as a share of its diagonal.
+    pub phenotype_diversity: f64,
     /// How the scores are spread.
     pub spread: Spread,
 }
@@ -46,6 +48,9 @@ pub struct Spread {
     /// How many scores lie in each of so many equal parts of that range.
     pub counts: [u32; SPREAD_BARS],
 }
+
+/// The most individuals whose distances are measured.
+const REPRESENTATIVES_MAX: usize = 64;
 
 /// Bars of a [`Spread`].
 pub const SPREAD_BARS: usize = 16;
@@ -77,6 +82,7 @@ impl Statistics {
             mean: mean(&scores),
             median: at(fitness.len() / 2),
             diversity: diversity(problem, population),
+            phenotype_diversity: phenotype_diversity(problem, population),
             spread: Spread::of(&scores),
         }
     }
@@ -88,11 +94,29 @@ fn mean(scores: &[f64]) -> Fitness {
 }
 
 fn diversity<P: Problem>(problem: &P, population: &[Individual<P::Gene>]) -> f64 {
+    let few: Vec<_> = representatives(population).map(|one| &one.genome).collect();
+    mean_of_pairs(&few, |a, b| problem.distance(a, b))
+}
+
+fn phenotype_diversity<P: Problem>(problem: &P, population: &[Individual<P::Gene>]) -> f64 {
+    let few: Vec<_> =
+        representatives(population).map(|one| problem.features(&one.genome)).collect();
+    let distance = |a: &[f64; 2], b: &[f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    mean_of_pairs(&few, distance) / std::f64::consts::SQRT_2
+}
+
+/// All of a small population, and of a large one as many, taken evenly: pairs grow with the square.
+fn representatives<G>(population: &[Individual<G>]) -> impl Iterator<Item = &Individual<G>> {
+    let count = population.len().min(REPRESENTATIVES_MAX);
+    (0..count).map(move |i| &population[i * population.len() / count])
+}
+
+fn mean_of_pairs<T>(all: &[T], distance: impl Fn(&T, &T) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut pairs = 0.0;
-    for (i, a) in population.iter().enumerate() {
-        for b in &population[i + 1..] {
-            sum += problem.distance(&a.genome, &b.genome);
+    for (i, a) in all.iter().enumerate() {
+        for b in &all[i + 1..] {
+            sum += distance(a, b);
             pairs += 1.0;
         }
     }

@@ -2,6 +2,7 @@
 
 use super::fitness::{Evaluation, Fitness};
 use super::sharing;
+use super::variation::sequences::Layout;
 use super::variation::{self, Variation};
 use crate::rng::Stream;
 use bytemuck::Pod;
@@ -15,13 +16,24 @@ pub trait Gene: Pod + PartialEq + Debug + Send + Sync + Serialize + DeserializeO
 
     /// Whether a gene that came from a file or another process may be used.
     fn is_valid(&self) -> bool;
+
+    /// The real numbers that it is made of, each from 0 to [`VALUE_MAX`](variation::values::VALUE_MAX), always as many;
+    /// none if it is made of something else.
+    fn values(&self) -> &[f64] {
+        &[]
+    }
+
+    /// The same, to be changed.
+    fn values_mut(&mut self) -> &mut [f64] {
+        &mut []
+    }
 }
 
 /// A problem to evolve solutions for: the one open trait of the crate.
 ///
 /// A genome is a `[Self::Gene]`. Evaluation must be a pure function of the genome: the same genome gets
 /// the same fitness bits wherever and whenever it is evaluated.
-pub trait Problem: Sync {
+pub trait Problem: Sync + Sized {
     /// One gene.
     type Gene: Gene;
 
@@ -37,8 +49,19 @@ pub trait Problem: Sync {
         None
     }
 
-    /// Changes a gene by a point mutation: each value with probability `rate`, by at most `amount`.
-    fn mutate_gene(&self, gene: &mut Self::Gene, rate: f64, amount: f64, rng: &mut Stream);
+    /// Whether each place of a genome has its meaning, so that all have the length of a random one.
+    fn layout(&self) -> Layout {
+        Layout::Free
+    }
+
+    /// Changes a gene by point mutation: each of its values as `variation` says.
+    fn mutate_gene(&self, gene: &mut Self::Gene, variation: &Variation, rng: &mut Stream) {
+        variation::values::mutate(gene.values_mut(), variation, rng);
+    }
+
+    /// Repeats a part of a genome within it, if it can and that leaves at most `genes_max` genes: by default it
+    /// cannot.
+    fn duplicate(&self, _genome: &mut Vec<Self::Gene>, _genes_max: usize, _rng: &mut Stream) {}
 
     /// How different two genomes are, from 0 (equal) to 1 (nothing in common).
     fn distance(&self, a: &[Self::Gene], b: &[Self::Gene]) -> f64;
@@ -60,18 +83,23 @@ pub trait Problem: Sync {
         variation: &Variation,
         rng: &mut Stream,
     ) -> Vec<Self::Gene> {
-        variation::one_point_crossover(a, b, variation.genes_max, rng)
+        variation::recombine(self, a, b, variation, rng)
     }
 
-    /// Mutates a genome: by default point, shrink and grow mutation, in this order.
+    /// Mutates a genome.
     fn mutate(&self, genome: &mut Vec<Self::Gene>, variation: &Variation, rng: &mut Stream) {
-        variation::point(genome, rng, |gene, rng| {
-            self.mutate_gene(gene, variation.point_rate, variation.point_amount, rng);
-        });
-        variation::shrink(genome, variation.shrink_rate, rng);
-        variation::grow(genome, variation.grow_rate, variation.genes_max, rng, |rng| {
-            self.random_gene(rng)
-        });
+        variation::mutate(self, genome, variation, rng);
+    }
+
+    /// What a genome is like besides being good: two numbers from 0 to 1, by which phenotypes are told apart and laid
+    /// out on a map. By default all are alike.
+    fn features(&self, _genome: &[Self::Gene]) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// What the two features are called.
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["first", "second"]
     }
 
     /// Estimates what evaluating a genome costs, in any unit. It decides in which order a batch is begun, and so how

@@ -1,8 +1,10 @@
 //! Who becomes a parent.
 
 use super::fitness::Fitness;
+use crate::choice;
 use crate::rng::Stream;
 use rand::RngExt;
+use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
 use std::fmt;
@@ -16,6 +18,9 @@ pub enum Selection {
     /// Fitness-proportionate (Holland 1975), shifted so that the smallest score of the population has
     /// no share of the wheel: scores may be negative, and their offset does not matter.
     Roulette,
+    /// Stochastic universal sampling (Baker 1987): the shares of the roulette wheel, drawn all at once, so that nobody
+    /// gets more than one offspring more or less than expected.
+    Sus,
     /// The best of `size` drawn with replacement (Brindle 1981).
     Tournament {
         /// How many compete, at least 1.
@@ -37,6 +42,7 @@ impl fmt::Display for Selection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Selection::Roulette => write!(f, "roulette"),
+            Selection::Sus => write!(f, "sus"),
             Selection::Tournament { size } => write!(f, "tournament:{size}"),
             Selection::Rank { pressure } => write!(f, "rank:{pressure}"),
             Selection::Truncation { fraction } => write!(f, "truncation:{fraction}"),
@@ -49,39 +55,20 @@ impl FromStr for Selection {
 
     /// Reads what `Display` writes; without its number a scheme takes its usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let (scheme, number) = text.split_once(':').map_or((text, None), |(s, n)| (s, Some(n)));
-        let number = |usual: f64, least: f64, most: f64| match number.map(str::parse::<f64>) {
-            None => Ok(usual),
-            Some(Ok(number)) if (least..=most).contains(&number) => Ok(number),
-            Some(_) => Err(format!("{scheme} takes a number from {least} to {most}")),
-        };
-        match scheme {
-            "roulette" if !text.contains(':') => Ok(Selection::Roulette),
-            "tournament" => {
-                Ok(Selection::Tournament { size: number(3.0, 1.0, 1000.0)?.round() as u32 })
-            }
-            "rank" => Ok(Selection::Rank { pressure: number(1.8, 1.0, 2.0)? }),
-            "truncation" => Ok(Selection::Truncation { fraction: number(0.3, 0.001, 1.0)? }),
-            _ => Err(format!(
-                "unknown selection “{text}”: choose roulette, tournament:3, rank:1.8 or truncation:0.3"
-            )),
+        let scheme = choice::Scheme::of(text);
+        match scheme.name {
+            "roulette" => scheme.plain(Selection::Roulette),
+            "sus" => scheme.plain(Selection::Sus),
+            "tournament" => Ok(Selection::Tournament { size: scheme.whole(3, 1, 1000)? }),
+            "rank" => Ok(Selection::Rank { pressure: scheme.number(1.8, 1.0, 2.0)? }),
+            "truncation" => Ok(Selection::Truncation { fraction: scheme.number(0.3, 0.001, 1.0)? }),
+            _ => Err(scheme
+                .unknown("selection", "roulette, sus, tournament:3, rank:1.8 or truncation:0.3")),
         }
     }
 }
 
-impl TryFrom<String> for Selection {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Selection> for String {
-    fn from(selection: Selection) -> String {
-        selection.to_string()
-    }
-}
+choice::as_text!(Selection);
 
 /// A selection scheme made ready for one population: build it once, pick from it often.
 #[derive(Debug, Clone)]
@@ -107,7 +94,9 @@ impl Selection {
     pub fn prepare(self, fitness: &[Fitness]) -> Selector {
         assert!(!fitness.is_empty(), "selection needs a population");
         match self {
-            Selection::Roulette => Selector::Wheel(Wheel::new(&roulette_weights(fitness))),
+            Selection::Roulette | Selection::Sus => {
+                Selector::Wheel(Wheel::new(&roulette_weights(fitness)))
+            }
             Selection::Tournament { size } => {
                 Selector::Tournament { fitness: fitness.to_vec(), size: size.max(1) }
             }
@@ -120,6 +109,29 @@ impl Selection {
 }
 
 impl Selector {
+    /// The indices of the parents of so many couples, each couple from its own stream, or all of them from that of the
+    /// first one where they are drawn at once.
+    pub fn couples(
+        &self,
+        selection: Selection,
+        couples: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        match self {
+            Selector::Wheel(wheel) if selection == Selection::Sus => {
+                let parents = wheel.spin_once(2 * couples, &mut stream(0));
+                parents.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+            }
+            _ => {
+                let couple = |index| {
+                    let mut rng = stream(index);
+                    [self.pick(&mut rng), self.pick(&mut rng)]
+                };
+                (0..couples).map(couple).collect()
+            }
+        }
+    }
+
     /// The index of one parent.
     pub fn pick(&self, rng: &mut Stream) -> usize {
         match self {
@@ -166,15 +178,30 @@ impl Wheel {
 
     /// Spins the wheel.
     pub fn spin(&self, rng: &mut Stream) -> usize {
-        let total = self.cumulative.last().copied().expect("a wheel has at least one weight");
-        let ball = rng.random::<f64>() * total;
+        self.at(rng.random::<f64>() * self.total())
+    }
+
+    /// Spins it once with `balls` that lie at equal distances, and returns where they end, in any order.
+    pub fn spin_once(&self, balls: usize, rng: &mut Stream) -> Vec<usize> {
+        let offset: f64 = rng.random();
+        let ball = |i: usize| self.at((i as f64 + offset) / balls as f64 * self.total());
+        let mut ends: Vec<usize> = (0..balls).map(ball).collect();
+        ends.shuffle(rng);
+        ends
+    }
+
+    fn total(&self) -> f64 {
+        self.cumulative.last().copied().expect("a wheel has at least one weight")
+    }
+
+    fn at(&self, ball: f64) -> usize {
         let index = self.cumulative.partition_point(|&sum| sum <= ball);
         // Rounding can let the ball land on the total itself: it then belongs to the last weight.
         index.min(self.last_weighted())
     }
 
     fn last_weighted(&self) -> usize {
-        let total = self.cumulative[self.cumulative.len() - 1];
+        let total = self.total();
         self.cumulative.partition_point(|&sum| sum < total)
     }
 }
@@ -221,8 +248,9 @@ mod tests {
     use super::*;
     use crate::rng::{Purpose, Source};
 
-    const SCHEMES: [Selection; 4] = [
+    const SCHEMES: [Selection; 5] = [
         Selection::Roulette,
+        Selection::Sus,
         Selection::Tournament { size: 3 },
         Selection::Rank { pressure: 2.0 },
         Selection::Truncation { fraction: 0.5 },
@@ -254,6 +282,20 @@ mod tests {
     }
 
     #[test]
+    fn universal_sampling_gives_everybody_what_is_expected_to_within_one() {
+        let fitness = [1.0, 2.0, 4.0, 1.5].map(Fitness::new);
+        let expected = [0.0, 2.0 / 9.0, 6.0 / 9.0, 1.0 / 9.0].map(|share| share * 14.0);
+        for seed in 0..50 {
+            let stream = |_| Source { seed, island: 0 }.stream(0, 0, Purpose::Selection);
+            let couples = Selection::Sus.prepare(&fitness).couples(Selection::Sus, 7, stream);
+            for (index, expected) in expected.into_iter().enumerate() {
+                let count = couples.iter().flatten().filter(|&&it| it == index).count() as f64;
+                assert!((count - expected).abs() < 1.0, "{count} instead of {expected}");
+            }
+        }
+    }
+
+    #[test]
     fn a_tournament_is_won_by_the_best_of_those_drawn() {
         let shares = shares(Selection::Tournament { size: 2 }, &[1.0, 2.0, 3.0]);
         assert_close(&shares, &[1.0 / 9.0, 3.0 / 9.0, 5.0 / 9.0]);
@@ -280,7 +322,7 @@ mod tests {
 
     #[test]
     fn failures_have_no_share_while_anything_was_scored() {
-        for scheme in [Selection::Roulette, Selection::Rank { pressure: 1.5 }, SCHEMES[3]] {
+        for scheme in [Selection::Roulette, Selection::Rank { pressure: 1.5 }, SCHEMES[4]] {
             let shares = shares(scheme, &[f64::NAN, 1.0, f64::NEG_INFINITY, 2.0]);
             assert_eq!((shares[0], shares[2]), (0.0, 0.0), "{scheme:?}");
         }

@@ -35,8 +35,6 @@ impl Problem for Ledger {
         vec![Number(1)]
     }
 
-    fn mutate_gene(&self, _: &mut Number, _: f64, _: f64, _: &mut Stream) {}
-
     fn distance(&self, _: &[Number], _: &[Number]) -> f64 {
         0.0
     }
@@ -62,7 +60,7 @@ fn genome(numbers: &[u8]) -> Vec<Number> {
 }
 
 fn child(numbers: &[u8]) -> Offspring<Number> {
-    Offspring { id: NOBODY, parents: [None; 2], genome: genome(numbers) }
+    Offspring { id: NOBODY, parents: [None; 2], origin: 0, genome: genome(numbers) }
 }
 
 const NOBODY: Id = Id { island: 0, generation: 0, index: 0 };
@@ -87,6 +85,7 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
     let resident = |numbers, fitness| Individual {
         id: NOBODY,
         parents: [None; 2],
+        origin: 0,
         genome: genome(numbers),
         fitness: Fitness::new(fitness),
     };

@@ -139,29 +139,6 @@ pub fn write(genome: &[Gene], mut output: impl Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes several genomes into one file, with an empty line after each.
-///
-/// # Errors
-/// If the output cannot be written.
-pub fn write_all<'a>(
-    genomes: impl IntoIterator<Item = &'a Vec<Gene>>,
-    mut output: impl Write,
-) -> io::Result<()> {
-    genomes.into_iter().try_for_each(|genome| {
-        write(genome, &mut output)?;
-        output.write_all(b"\n")
-    })
-}
-
-/// Reads what [`write_all`] wrote.
-///
-/// # Errors
-/// If one of the genomes is none; lines are counted within it.
-pub fn read_all(text: &str) -> Result<Vec<Vec<Gene>>, GenomeCsvError> {
-    let genomes = text.split("\n\n").filter(|genome| !genome.trim().is_empty());
-    genomes.map(|genome| Ok(read(genome.as_bytes())?.genome)).collect()
-}
-
 /// Replaces `bytes` by the next line; false at the end of the input.
 fn next_line(
     input: &mut impl BufRead,

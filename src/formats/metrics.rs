@@ -19,6 +19,8 @@ pub struct Row {
     pub median: Option<f64>,
     /// The mean distance of two genomes, 0 to 1.
     pub diversity: f64,
+    /// The mean distance of two phenotypes, 0 to 1: for creatures by the number of links and the height.
+    pub phenotype_diversity: f64,
     /// Evaluations that were run.
     pub evaluations: u64,
     /// Offspring whose fitness was known already.
@@ -55,6 +57,7 @@ impl Row {
             mean: statistics.mean.finite(),
             median: statistics.median.finite(),
             diversity: statistics.diversity,
+            phenotype_diversity: statistics.phenotype_diversity,
             evaluations: effort.evaluations,
             reused: effort.reused,
             failures: effort.failures(),
@@ -99,7 +102,14 @@ mod tests {
     fn each_way_to_fail_has_a_column_of_its_name_in_the_order_of_all() {
         let worst = Fitness::WORST;
         let (mean, median, spread) = (worst, worst, Spread::default());
-        let statistics = Statistics { best: worst, mean, median, diversity: 0.0, spread };
+        let statistics = Statistics {
+            best: worst,
+            mean,
+            median,
+            diversity: 0.0,
+            phenotype_diversity: 0.0,
+            spread,
+        };
         // As many of each as its number says.
         let outcomes = std::array::from_fn(|outcome| outcome as u64);
         let effort = Effort { evaluations: outcomes.iter().sum(), reused: 0, outcomes };
@@ -130,6 +140,7 @@ mod tests {
             mean: None,
             median: None,
             diversity: 0.5,
+            phenotype_diversity: 0.25,
             evaluations: 3,
             reused: 1,
             failures: 2,
@@ -146,7 +157,7 @@ mod tests {
         write(&[row, row], true, &mut bytes).expect("memory takes everything");
         let text = String::from_utf8(bytes.clone()).expect("it is text");
         assert!(
-            text.contains("1,2,0.30000000000000004,,,0.5,3,1,2,0,0,1,1,0,0,0,0.25\n"),
+            text.contains("1,2,0.30000000000000004,,,0.5,0.25,3,1,2,0,0,1,1,0,0,0,0.25\n"),
             "{text}"
         );
         assert_eq!(read(bytes.as_slice()).expect("it is ours"), [row, row]);

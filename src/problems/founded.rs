@@ -1,5 +1,6 @@
 //! A problem whose islands do not all begin at random.
 
+use crate::evolution::variation::sequences::Layout;
 use crate::evolution::{Evaluation, Fitness, Problem, Variation};
 use crate::rng::Stream;
 
@@ -31,8 +32,24 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.random_genome(rng)
     }
 
-    fn mutate_gene(&self, gene: &mut P::Gene, rate: f64, amount: f64, rng: &mut Stream) {
-        self.problem.mutate_gene(gene, rate, amount, rng);
+    fn layout(&self) -> Layout {
+        self.problem.layout()
+    }
+
+    fn mutate_gene(&self, gene: &mut P::Gene, variation: &Variation, rng: &mut Stream) {
+        self.problem.mutate_gene(gene, variation, rng);
+    }
+
+    fn duplicate(&self, genome: &mut Vec<P::Gene>, genes_max: usize, rng: &mut Stream) {
+        self.problem.duplicate(genome, genes_max, rng);
+    }
+
+    fn features(&self, genome: &[P::Gene]) -> [f64; 2] {
+        self.problem.features(genome)
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        self.problem.feature_names()
     }
 
     fn distance(&self, a: &[P::Gene], b: &[P::Gene]) -> f64 {

@@ -1,13 +1,16 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
 use super::progress;
+use super::robustness::Robustness;
 use crate::choice;
-use crate::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales};
-use crate::evolution::{self, Evaluation, Outcome, Problem, variation};
+use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
+use crate::evolution::{self, Evaluation, Outcome, Problem};
 use crate::rng::Stream;
 use crate::simulation::terrain::mountain;
-use crate::simulation::{self, Engine, Ground, Measurement, Start, Terrain, Trajectory, Trial};
+use crate::simulation::{
+    self, Engine, Ground, Measurement, Perturbation, Start, Terrain, Trajectory, Trial,
+};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -43,6 +46,7 @@ impl Task {
                 // gave no more than 960 did (rank correlation 0.78 both), 120 more (0.72), and at 120 rapier gave
                 // bodies eight times as much momentum out of nothing, half of what the ledger refuses.
                 steps_per_s: 240,
+                perturbation: Perturbation::NONE,
                 gravity_m_s2: 9.81,
                 ground: Ground::Plane,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
@@ -53,6 +57,7 @@ impl Task {
             },
             Task::Course => Trial {
                 steps_per_s: 240,
+                perturbation: Perturbation::NONE,
                 gravity_m_s2: 10.0,
                 ground: Ground::Plane,
                 start: Start::RootAt(2.5),
@@ -95,6 +100,9 @@ impl std::str::FromStr for Task {
     }
 }
 
+/// The height of a body from which on bodies count as equally high, in metres.
+pub const HEIGHT_MAX_M: f64 = 3.0;
+
 /// The problem of locomotion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Locomotion {
@@ -110,6 +118,8 @@ pub struct Locomotion {
     pub links_max: usize,
     /// What moves the bodies.
     pub engine: Engine,
+    /// How often they are tried.
+    pub robustness: Robustness,
     /// What they stand on, if it is another ground than the task's.
     pub terrain: Option<&'static Terrain>,
 }
@@ -129,6 +139,7 @@ impl Locomotion {
         genes: 4,
         links_max: 32,
         engine: Engine::Rapier,
+        robustness: Robustness::NONE,
         terrain: None,
     };
 
@@ -156,7 +167,8 @@ impl Locomotion {
         creature::express(genome, self.reading(), self.links_max)
     }
 
-    /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives.
+    /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives. The film is of a
+    /// trial that is not perturbed.
     ///
     /// # Errors
     /// If the genome cannot be expressed.
@@ -164,13 +176,37 @@ impl Locomotion {
         Ok(self.film_body(&self.express(genome)?))
     }
 
-    /// Evaluates a body and films it.
+    /// Evaluates a body and films it, as it is with a genome.
     pub fn film_body(&self, creature: &Creature) -> (Evaluation, Trajectory) {
-        let (result, trajectory) = simulation::film(creature, &self.trial(), self.engine);
-        (self.evaluation(result), trajectory)
+        self.film_trial(creature, &self.trial())
     }
 
-    fn try_out(&self, genome: &[Gene]) -> Result<Measurement, Outcome> {
+    /// Evaluates a body in another trial than the task's, or in its perturbations, and films it.
+    pub fn film_trial(&self, creature: &Creature, trial: &Trial) -> (Evaluation, Trajectory) {
+        let (result, trajectory) = simulation::film(creature, trial, self.engine);
+        let result = match self.robustness.is_wanted() {
+            true => self.score(creature, trial),
+            false => result.map(|measured| self.task.score(&measured)),
+        };
+        (evaluation(result), trajectory)
+    }
+
+    /// Simulation steps of a genome's evaluation, of trials that run to their end; of settling, which lasts as long as
+    /// it takes, one round.
+    pub fn steps(&self) -> u64 {
+        let trials = self.robustness.trials(self.trial());
+        trials.map(|trial| u64::from(trial.steps())).sum()
+    }
+
+    fn score(&self, creature: &Creature, trial: &Trial) -> Result<f64, Outcome> {
+        let score = |trial: Trial| {
+            let measured = simulation::simulate(creature, &trial, self.engine)?;
+            Ok(self.task.score(&measured))
+        };
+        self.robustness.score(self.robustness.trials(*trial).map(score))
+    }
+
+    fn try_out(&self, genome: &[Gene]) -> Result<f64, Outcome> {
         let mut values = genome.iter().flat_map(|gene| gene.0);
         if !values.all(f64::is_finite) {
             return Err(Outcome::NotFinite);
@@ -179,14 +215,7 @@ impl Locomotion {
             return Err(Outcome::TooLarge);
         }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        simulation::simulate(&creature, &self.trial(), self.engine)
-    }
-
-    fn evaluation(&self, result: Result<Measurement, Outcome>) -> Evaluation {
-        match result {
-            Ok(measured) => Evaluation::scored(self.task.score(&measured)),
-            Err(outcome) => Evaluation::failed(outcome),
-        }
+        self.score(&creature, &self.trial())
     }
 }
 
@@ -195,6 +224,14 @@ impl evolution::Gene for Gene {
 
     fn is_valid(&self) -> bool {
         self.0.iter().all(|value| (0.0..1.0).contains(value))
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.0
+    }
+
+    fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.0
     }
 }
 
@@ -209,13 +246,25 @@ impl Problem for Locomotion {
         (0..self.genes).map(|_| self.random_gene(rng)).collect()
     }
 
-    fn mutate_gene(&self, gene: &mut Gene, rate: f64, amount: f64, rng: &mut Stream) {
-        for value in &mut gene.0 {
-            if variation::happens(rate, rng) {
-                let change = (2.0 * rng.random::<f64>() - 1.0) * amount;
-                *value = reflect(*value + change);
-            }
+    /// Appends a copy of a limb, with all that it carries, to whom the limb is on: a new gene for each of the old ones,
+    /// as they are but for who their parents are.
+    fn duplicate(&self, genome: &mut Vec<Gene>, genes_max: usize, rng: &mut Stream) {
+        if genome.len() > 1 {
+            let limb = rng.random_range(1..genome.len());
+            genome::duplicate(genome, limb, genes_max);
         }
+    }
+
+    /// How many links its body has, of those that it may have, and how high it stands at rest, of [`HEIGHT_MAX_M`].
+    fn features(&self, genome: &[Gene]) -> [f64; 2] {
+        let expressed = catch_unwind(AssertUnwindSafe(|| self.express(genome)));
+        let Some(creature) = expressed.ok().and_then(Result::ok) else { return [0.0; 2] };
+        let links = creature.morphology.links.len() as f64 / self.links_max.max(1) as f64;
+        [links.min(1.0), (creature.morphology.height_m() / HEIGHT_MAX_M).min(1.0)]
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["links", "height"]
     }
 
     /// The mean absolute difference of the values of genes in the same place; a gene that only one of them has
@@ -231,19 +280,19 @@ impl Problem for Locomotion {
 
     fn evaluate(&self, genome: &[Gene]) -> Evaluation {
         let tried = catch_unwind(AssertUnwindSafe(|| self.try_out(genome)));
-        self.evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+        evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
     }
 
     fn confirm(&self, genome: &[Gene]) -> Option<Evaluation> {
         self.judge().map(|judge| judge.evaluate(genome))
     }
 
-    /// Links times steps, of a trial that runs to its end; what cannot be expressed costs nothing.
+    /// Links times steps, of trials that run to their end; what cannot be expressed costs nothing.
     fn cost(&self, genome: &[Gene]) -> u64 {
         // Whatever evaluating a genome contains must not come out here.
         let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
-        links as u64 * u64::from(self.trial().steps())
+        links as u64 * self.steps()
     }
 
     fn unit(&self) -> &'static str {
@@ -251,20 +300,19 @@ impl Problem for Locomotion {
     }
 }
 
-fn gene_distance(a: &Gene, b: &Gene) -> f64 {
-    a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).sum::<f64>() / PARAMETER_COUNT as f64
+fn evaluation(result: Result<f64, Outcome>) -> Evaluation {
+    result.map_or_else(Evaluation::failed, Evaluation::scored)
 }
 
-/// Brings a value that left the range from 0 to 1 by less than 1 back in, as a mirror at its ends would:
-/// a clamp would pile values up there.
-fn reflect(value: f64) -> f64 {
-    let value = value.abs();
-    if value < 1.0 { value } else { (2.0 - value).clamp(0.0, VALUE_MAX) }
+fn gene_distance(a: &Gene, b: &Gene) -> f64 {
+    a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).sum::<f64>() / PARAMETER_COUNT as f64
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::creature::gene::VALUE_MAX;
+    use crate::evolution::Variation;
     use crate::rng::{Purpose, Source};
 
     fn problem() -> Locomotion {
@@ -277,10 +325,11 @@ mod tests {
 
     #[test]
     fn point_mutation_honours_its_rate_and_its_amount() {
+        let variation = Variation { point_rate: 0.2, point_amount: 0.05, ..Variation::default() };
         let mut changed = 0.0;
         for index in 0..1_000 {
             let mut gene = Gene([0.5; PARAMETER_COUNT]);
-            problem().mutate_gene(&mut gene, 0.2, 0.05, &mut stream(index));
+            problem().mutate_gene(&mut gene, &variation, &mut stream(index));
             assert!(gene.0.iter().all(|value| (value - 0.5).abs() <= 0.05));
             changed += gene.0.iter().filter(|&&value| value != 0.5).count() as f64 / 17_000.0;
         }
@@ -313,10 +362,11 @@ mod tests {
 
     #[test]
     fn mutation_never_leaves_the_range() {
+        let variation = Variation { point_rate: 1.0, point_amount: 1.0, ..Variation::default() };
         for (index, start) in [(0, 0.0), (1, VALUE_MAX), (2, 0.5)] {
             let mut gene = Gene([start; PARAMETER_COUNT]);
             for _ in 0..200 {
-                problem().mutate_gene(&mut gene, 1.0, 1.0, &mut stream(index));
+                problem().mutate_gene(&mut gene, &variation, &mut stream(index));
                 assert!(evolution::Gene::is_valid(&gene), "{gene:?}");
             }
         }

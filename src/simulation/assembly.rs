@@ -2,6 +2,7 @@
 //!
 //! Links that fixed joints hold together are one part: there is nothing to solve between them.
 
+use super::perturbation::Perturbation;
 use super::terrain::Ground;
 use super::trial::{LEAN_RAD, Start, Trial};
 use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Morphology, Shape};
@@ -73,6 +74,11 @@ impl Assembly {
     /// Puts a creature together for a trial.
     pub fn new(creature: &Creature, trial: &Trial) -> Self {
         let mut morphology = creature.morphology.clone();
+        let Perturbation { torque, yaw_rad, .. } = trial.perturbation;
+        if yaw_rad != 0.0 {
+            let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad);
+            morphology.root_rotation = yaw * morphology.root_rotation;
+        }
         if let Start::LeaningAt(_) = trial.start {
             morphology.root_rotation = lean() * morphology.root_rotation;
         }
@@ -81,7 +87,7 @@ impl Assembly {
             morphology.links.iter().zip(morphology.rest_poses()).enumerate()
         {
             let torque_nm_max = creature.controller.motors[index].map_or(0.0, |m| m.torque_nm_max);
-            assembly.add(link, rest, torque_nm_max);
+            assembly.add(link, rest, torque * torque_nm_max);
         }
         for part in &mut assembly.parts {
             part.weigh();

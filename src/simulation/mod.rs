@@ -3,12 +3,14 @@
 //! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it. An [`Engine`] moves it through
 //! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors, [`settling`] brings
 //! it to rest on the [`terrain`] before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it.
+//! [`perturbation`] says what may differ from one trial of a body to the next.
 //! [`simulate`] runs it and returns what was measured; what of that is worth how much is for a task to say.
 
 pub mod actuator;
 pub mod assembly;
 pub mod engine;
 mod featherstone;
+pub mod perturbation;
 mod rapier;
 pub mod settling;
 pub mod stability;
@@ -20,6 +22,7 @@ pub mod trial;
 pub mod world;
 
 pub use engine::Engine;
+pub use perturbation::Perturbation;
 pub use terrain::{Ground, Terrain};
 pub use trajectory::{Pose, Trajectory};
 pub use trial::{Start, Trial};
@@ -166,7 +169,7 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
     fn run(mut self, creature: &Creature, trial: &Trial) -> Result<Measurement, Outcome> {
         self.settle(trial)?;
         let centre_first_m = self.centre_of_mass();
-        let sample_steps = trial.steps_in(TRACK_SAMPLE_S);
+        let (sample_steps, push_step) = (trial.sample_steps(), trial.push_step());
         let mut track_m = Vec::with_capacity(trial.samples() + 1);
         track_m.push(centre_first_m.xy());
         let mut heights_m = Vec::new();
@@ -187,6 +190,10 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
                 if trial.keeps_ledger {
                     ledger.enter(centre_m)?;
                 }
+            }
+            if scored + 1 == push_step {
+                self.world.push(trial.perturbation.push_m_s);
+                ledger.enter_push(trial.perturbation.push_m_s);
             }
         }
         self.check()?;

@@ -2,7 +2,7 @@
 
 use super::assembly::Assembly;
 use super::terrain::Ground;
-use super::trial::{GRIP, Trial};
+use super::trial::Trial;
 use super::world::World;
 use crate::creature::Creature;
 use crate::evolution::Outcome;
@@ -104,6 +104,7 @@ const EXCESS_MAX_M_S: f64 = 0.1;
 pub struct Ledger {
     period_s: f64,
     gravity_m_s2: f64,
+    grip: f64,
     position_m: Vector3<f64>,
     velocity_m_s: Vector3<f64>,
     /// The share of a period's gravity that the next change of mean velocity has seen.
@@ -124,6 +125,7 @@ impl Ledger {
         Self {
             period_s: trial.time_s(steps),
             gravity_m_s2: trial.gravity_m_s2,
+            grip: trial.grip(),
             position_m,
             velocity_m_s,
             share: 0.5,
@@ -136,10 +138,15 @@ impl Ledger {
         let velocity_m_s = (position_m - self.position_m) / self.period_s;
         let change_m_s = velocity_m_s - self.velocity_m_s;
         let support_m_s = change_m_s.z + self.share * self.gravity_m_s2 * self.period_s;
-        let grip_m_s = GRIP * support_m_s;
+        let grip_m_s = self.grip * support_m_s;
         self.excess_m_s += (change_m_s.xy().norm() - grip_m_s).max(0.0);
         (self.position_m, self.velocity_m_s, self.share) = (position_m, velocity_m_s, 1.0);
         if self.excess_m_s > EXCESS_MAX_M_S { Err(Outcome::Unphysical) } else { Ok(()) }
+    }
+
+    /// Enters a velocity that the body got from outside at the moment of the last position, in m/s.
+    pub fn enter_push(&mut self, velocity_m_s: Vector3<f64>) {
+        self.velocity_m_s += velocity_m_s;
     }
 
     /// Speed that the body has gained out of nothing so far, in m/s.
@@ -150,26 +157,59 @@ impl Ledger {
 
 #[cfg(test)]
 mod tests {
+    use super::super::perturbation::Perturbation;
     use super::super::trial::Start;
     use super::*;
 
-    #[test]
-    fn a_jump_that_takes_its_grip_from_the_ground_is_no_push() {
-        let trial = Trial {
+    fn trial() -> Trial {
+        Trial {
             steps_per_s: 240,
+            perturbation: Perturbation::NONE,
             gravity_m_s2: 9.81,
             ground: Ground::Plane,
             start: Start::LowestAt(0.0),
             settle_s: 0.0,
             scored_s: 2.0,
             keeps_ledger: true,
-        };
-        let mut ledger = Ledger::new(&trial, 24, Vector3::zeros(), Vector3::zeros());
+        }
+    }
+
+    #[test]
+    fn a_jump_that_takes_its_grip_from_the_ground_is_no_push() {
+        let mut ledger = Ledger::new(&trial(), 24, Vector3::zeros(), Vector3::zeros());
         let (fall_m, hop_m) = (-9.81 * 0.01, 0.05);
         ledger.enter(Vector3::zeros()).unwrap();
         assert_eq!(ledger.enter(Vector3::new(0.03, 0.0, hop_m)), Ok(()));
         let falling = Vector3::new(0.06, 0.0, 2.0 * hop_m + fall_m);
         assert_eq!(ledger.clone().enter(falling), Ok(()));
         assert_eq!(ledger.enter(falling + Vector3::x() * 0.02), Err(Outcome::Unphysical));
+    }
+    #[test]
+    fn what_rubber_may_do_is_a_push_on_ice() {
+        let enter = |friction| {
+            let perturbation = Perturbation { friction, ..Perturbation::NONE };
+            let trial = Trial { perturbation, ..trial() };
+            let mut ledger = Ledger::new(&trial, 24, Vector3::zeros(), Vector3::zeros());
+            ledger.enter(Vector3::zeros())?;
+            // Twice 0.27 m/s more than before; of each, usual friction allows 0.245, and 0.1 in all is passed over.
+            ledger.enter(Vector3::x() * 0.027)?;
+            ledger.enter(Vector3::x() * 0.081)
+        };
+        assert_eq!(enter(1.25), Ok(()));
+        assert_eq!(enter(0.75), Err(Outcome::Unphysical));
+    }
+
+    #[test]
+    fn a_push_that_is_entered_is_no_excess_and_must_be_what_was_entered() {
+        let enter = |push_m_s: f64| {
+            let mut ledger = Ledger::new(&trial(), 24, Vector3::zeros(), Vector3::zeros());
+            ledger.enter(Vector3::zeros())?;
+            ledger.enter_push(Vector3::x() * push_m_s);
+            ledger.enter(Vector3::x() * 0.06)?;
+            ledger.enter(Vector3::x() * 0.12)
+        };
+        assert_eq!(enter(0.6), Ok(()));
+        assert_eq!(enter(0.0), Err(Outcome::Unphysical));
+        assert_eq!(enter(-0.6), Err(Outcome::Unphysical));
     }
 }

@@ -1,6 +1,7 @@
 //! How a body is tried, and the constants of the world that it is tried in.
 
 use super::TRACK_SAMPLE_S;
+use super::perturbation::Perturbation;
 use super::terrain::{Ground, Terrain};
 use std::f64::consts::TAU;
 
@@ -9,6 +10,8 @@ use std::f64::consts::TAU;
 pub struct Trial {
     /// Steps a second.
     pub steps_per_s: u32,
+    /// What differs from the usual.
+    pub perturbation: Perturbation,
     /// Acceleration of gravity, downwards, in m/s².
     pub gravity_m_s2: f64,
     /// What the body stands on.
@@ -42,18 +45,13 @@ pub const LEAN_RAD: f64 = TAU / 72.0;
 /// Friction of a plane and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
 
-/// The coefficient of friction between a plane and a link.
+/// The usual coefficient of friction between a plane and a link.
 pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
     /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
     pub fn on(self, terrain: &'static Terrain) -> Self {
         Self { ground: Ground::Terrain(terrain), keeps_ledger: false, ..self }
-    }
-
-    /// The coefficient of friction between the ground and a link.
-    pub fn grip(&self) -> f64 {
-        GRIP * self.ground.roughness()
     }
 
     /// The simulated time after a number of steps, in seconds.
@@ -66,6 +64,11 @@ impl Trial {
         self.steps_in_exactly(self.settle_s) + self.steps_in_exactly(self.scored_s)
     }
 
+    /// The coefficient of friction between the ground and a link.
+    pub fn grip(&self) -> f64 {
+        GRIP * self.perturbation.friction * self.ground.roughness()
+    }
+
     /// The nearest number of steps to a period, at least 1.
     pub(super) fn steps_in(&self, period_s: f64) -> u32 {
         self.steps_in_exactly(period_s).max(1)
@@ -73,7 +76,12 @@ impl Trial {
 
     /// Positions on the track after the first.
     pub(super) fn samples(&self) -> usize {
-        (self.steps_in_exactly(self.scored_s) / self.steps_in(TRACK_SAMPLE_S)) as usize
+        (self.steps_in_exactly(self.scored_s) / self.sample_steps()) as usize
+    }
+
+    /// Steps from one position on the track to the next.
+    pub(super) fn sample_steps(&self) -> u32 {
+        self.steps_in(TRACK_SAMPLE_S)
     }
 
     pub(super) fn steps_in_exactly(&self, period_s: f64) -> u32 {

@@ -19,6 +19,9 @@ pub trait World {
     /// Takes all speed from the body: it stands still where it is.
     fn halt(&mut self);
 
+    /// Gives the whole body a velocity on top of its own, in m/s: every part the same.
+    fn push(&mut self, velocity_m_s: Vector3<f64>);
+
     /// Where a part is.
     fn world_from_part(&self, part: usize) -> Isometry3<f64>;
 

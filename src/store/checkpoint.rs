@@ -89,13 +89,15 @@ pub fn from_bytes<G: Gene>(bytes: &[u8], path: &Path) -> Result<Checkpoint<G>, S
 mod tests {
     use super::*;
     use crate::creature::Gene;
+    use crate::evolution::cma::Cma;
     use crate::evolution::generation::Effort;
-    use crate::evolution::{Fitness, Id, Individual};
+    use crate::evolution::{Fitness, Id, Individual, Memory};
 
     fn checkpoint() -> Checkpoint<Gene> {
         let individual = Individual {
             id: Id { island: 1, generation: 2, index: 3 },
             parents: [Some(Id { island: 0, generation: 1, index: 9 }), None],
+            origin: 0,
             genome: vec![Gene([0.25; 17]); 2],
             fitness: Fitness::new(1.5),
         };
@@ -106,6 +108,7 @@ mod tests {
             population: vec![individual.clone(), failed],
             champion: individual,
             effort: Effort::default(),
+            memory: Memory { amount_scale: 0.5, cma: Some(Box::new(Cma::about(vec![0.25, 0.5]))) },
         };
         Checkpoint { settings: "seed = 7\n".to_owned(), island }
     }

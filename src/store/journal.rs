@@ -78,6 +78,39 @@ impl<G: Gene> Journal<G> {
     }
 }
 
+/// Reads a journal that another process writes, forwards only.
+#[derive(Debug)]
+pub struct JournalReader<G> {
+    path: PathBuf,
+    tail: Tail<Outbox<G>>,
+    /// The epoch that it comes to next.
+    next: u32,
+}
+
+impl<G: Gene> JournalReader<G> {
+    /// A reader of the journal at `path`, which need not exist yet.
+    pub fn of(path: impl Into<PathBuf>) -> Self {
+        let path = path.into();
+        Self { tail: Tail::of(&path), path, next: 0 }
+    }
+
+    /// The outbox of an epoch, if it is there by now; none of one that is not after all that were read before.
+    ///
+    /// # Errors
+    /// If the file cannot be read or is not ours.
+    pub fn outbox(&mut self, epoch: u32) -> Result<Option<Outbox<G>>, StoreError> {
+        while self.next <= epoch {
+            let Some(outbox) = self.tail.next_record()? else { break };
+            let outbox = in_place(&self.path, outbox, self.next)?;
+            self.next += 1;
+            if outbox.epoch == epoch {
+                return Ok(Some(outbox));
+            }
+        }
+        Ok(None)
+    }
+}
+
 fn in_place<G>(path: &Path, outbox: Outbox<G>, epoch: u32) -> Result<Outbox<G>, StoreError> {
     if outbox.epoch == epoch {
         Ok(outbox)
@@ -94,6 +127,7 @@ mod tests {
         let migrant = crate::evolution::Individual {
             id: crate::evolution::Id { island: 0, generation: epoch, index: 0 },
             parents: [None; 2],
+            origin: 0,
             genome: vec![crate::creature::Gene([0.5; 17])],
             fitness: crate::evolution::Fitness::new(1.0),
         };
@@ -114,8 +148,14 @@ mod tests {
         assert!(journal.append(&outbox(9, 1)).is_err(), "there would be a hole");
         assert_eq!(journal.outbox(2).expect("it is readable"), Some(outbox(2, 1)));
         assert_eq!(journal.outbox(3).expect("it is readable"), None);
+        let mut reader = JournalReader::of(&path);
+        let mut later = |epoch| reader.outbox(epoch).expect("it is readable");
+        assert_eq!([later(1), later(0)], [Some(outbox(1, 1)), None]);
+        assert_eq!([later(3), later(2)], [None, None], "it has gone past the end");
+        journal.append(&outbox(3, 1)).expect("it is the next");
+        assert_eq!(later(3), Some(outbox(3, 1)));
         let read = |epochs| Journal::read(&path, epochs).expect("it is readable");
-        assert_eq!(read(1..9), [outbox(1, 1), outbox(2, 1)]);
+        assert_eq!(read(1..3), [outbox(1, 1), outbox(2, 1)]);
         assert_eq!(read(7..9), []);
     }
 }

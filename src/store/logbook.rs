@@ -2,11 +2,15 @@
 //!
 //! The order of writing is what makes any moment a good one to die: first a generation's champion, births
 //! and report and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a
-//! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same.
+//! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same. Where islands
+//! do not wait for each other, what they took in is recorded before a generation is evolved with it.
 
 use super::checkpoint::Checkpoint;
 use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
-use crate::archipelago::{Archipelago, Births, Champion, Island, Outbox, Report, Step};
+use crate::archipelago::arrivals::check_record;
+use crate::archipelago::{
+    Archipelago, Arrivals, Births, Champion, ExchangeMode, Island, Outbox, Report, Step,
+};
 use crate::evolution::Gene;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -29,6 +33,8 @@ pub struct Logbook<G> {
     champions: RecordLog<Champion<G>>,
     lineages: RecordLog<Births>,
     reports: RecordLog<Entry>,
+    /// What it took in, where that is recorded.
+    arrivals: Option<RecordLog<Arrivals>>,
 }
 
 /// What an island begins with.
@@ -38,6 +44,8 @@ pub struct Restored<G> {
     pub logbook: Logbook<G>,
     /// The state that it goes on from; none if it begins from the seed.
     pub island: Option<Island<G>>,
+    /// All that it ever took in, where that is recorded, which it may have yet to evolve with again.
+    pub arrivals: Vec<Arrivals>,
     /// What was damaged, a sentence each.
     pub warnings: Vec<String>,
 }
@@ -47,24 +55,28 @@ impl<G: Gene> Logbook<G> {
     /// the logs know all about. Without one the island begins from the seed, and comes to the same.
     ///
     /// # Errors
-    /// If a file cannot be opened, or a checkpoint is of another version or of other settings.
+    /// If a file cannot be opened, a checkpoint is of another version or of other settings, or the record of what it
+    /// took in lacks what it has evolved with: then it cannot come to the same again.
     pub fn open(
         dir: &RunDir,
         archipelago: &Archipelago,
         index: u32,
         settings: &str,
     ) -> Result<Restored<G>, StoreError> {
+        let journal = Journal::open(&dir.migrations(index))?;
+        let (arrivals, recorded) = open_arrivals(dir, archipelago, index, journal.epochs())?;
         let mut logbook = Self {
             settings: settings.to_owned(),
             checkpoints: Checkpoints::of(dir, index),
-            journal: Journal::open(&dir.migrations(index))?,
+            journal,
+            arrivals,
             champions: RecordLog::open(&dir.champions(index))?,
             lineages: RecordLog::open(&dir.lineages(index))?,
             reports: RecordLog::open(&dir.reports(index))?,
         };
         let (island, warnings) = logbook.newest_state(archipelago)?;
         logbook.cut_back_to(island.as_ref().map(|island| island.generation))?;
-        Ok(Restored { logbook, island, warnings })
+        Ok(Restored { logbook, island, arrivals: recorded, warnings })
     }
 
     /// Records a generation, and journals the outbox that it sends, which may be sent only then.
@@ -73,9 +85,17 @@ impl<G: Gene> Logbook<G> {
     /// If the disk is full or gone, or an epoch that is evolved again comes out otherwise.
     pub fn record(&mut self, step: &Step<G>, seconds: f64) -> Result<(), StoreError> {
         step.champion.iter().try_for_each(|champion| self.champions.append(champion))?;
-        self.lineages.append(&Births::of(&step.island))?;
+        self.lineages.append(&step.births)?;
         self.reports.append(&Entry { report: step.report, seconds })?;
         step.outbox.iter().try_for_each(|outbox| self.journal.append(outbox))
+    }
+
+    /// Records what the island takes in: do this before it is evolved with.
+    ///
+    /// # Errors
+    /// If the disk is full or gone.
+    pub fn record_arrivals(&mut self, arrivals: &Arrivals) -> Result<(), StoreError> {
+        self.arrivals.iter_mut().try_for_each(|log| log.append(arrivals))
     }
 
     /// Saves a state whose generation was recorded.
@@ -151,6 +171,10 @@ impl<G: Gene> Logbook<G> {
         if self.journal.epochs() < generation / archipelago.migration.interval {
             return lacks("migrations");
         }
+        let begun = archipelago.migration.begun(generation) as usize;
+        if self.arrivals.as_ref().is_some_and(|log| log.len() < begun) {
+            return lacks("arrivals");
+        }
         let champion = self.champions.last_that(|champion| champion.generation <= generation)?;
         match champion {
             Some((_, champion)) if champion.individual == island.champion => Ok(island),
@@ -168,4 +192,28 @@ impl<G: Gene> Logbook<G> {
         self.lineages.truncate(generations)?;
         self.reports.truncate(generations)
     }
+}
+
+/// Opens what an island took in, where that is recorded, and reads it. It must reach as far as what the island has
+/// sent, or it is left as it is: somebody may be able to mend it.
+fn open_arrivals(
+    dir: &RunDir,
+    archipelago: &Archipelago,
+    index: u32,
+    sent: u32,
+) -> Result<(Option<RecordLog<Arrivals>>, Vec<Arrivals>), StoreError> {
+    if archipelago.migration.exchange == ExchangeMode::Sync {
+        return Ok((None, Vec::new()));
+    }
+    let path = dir.arrivals(index);
+    let recorded = RecordLog::<Arrivals>::read(&path)?.records;
+    let damaged = |reason: String| StoreError::damaged(&path, reason);
+    check_record(&recorded, archipelago, index).map_err(damaged)?;
+    if recorded.len() < sent as usize {
+        return Err(damaged(format!(
+            "it does not say what epoch {} took in, which the island has sent already: it cannot be evolved again",
+            recorded.len()
+        )));
+    }
+    Ok((Some(RecordLog::open(&path)?), recorded))
 }

@@ -1,7 +1,7 @@
 //! What a run leaves on disk, so that nothing is lost.
 //!
-//! [`run_dir`] says where everything lies, and whose it is; [`mod@file`] opens what may be anything; [`atomic`]
-//! writes files that are there whole or not at all; [`record_log`] appends records, each with its checksum, and
+//! [`run_dir`] says where everything lies, and whose it is, [`experiment_dir`] the same of an experiment;
+//! [`mod@file`] opens what may be anything; [`atomic`] writes files that are there whole or not at all; [`record_log`] appends records, each with its checksum, and
 //! is what an island's [`journal`] and its logs of champions and generations are made of; [`checkpoint`] is an
 //! island's whole state, of which [`checkpoints`] keeps the newest two. A [`Logbook`] is all of it together, and
 //! what an island begins with after its death; it believes no state that could not be one of the run.
@@ -11,6 +11,7 @@
 pub mod atomic;
 pub mod checkpoint;
 pub mod checkpoints;
+pub mod experiment_dir;
 pub mod file;
 pub mod journal;
 pub mod logbook;
@@ -19,7 +20,8 @@ pub mod run_dir;
 
 pub use checkpoint::Checkpoint;
 pub use checkpoints::Checkpoints;
-pub use journal::Journal;
+pub use experiment_dir::ExperimentDir;
+pub use journal::{Journal, JournalReader};
 pub use logbook::{Entry, Logbook, Restored};
 pub use record_log::{RecordLog, Tail};
 pub use run_dir::{Claim, RunDir};

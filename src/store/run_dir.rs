@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 /// run.log                                 what happened: starts, deaths, restarts, warnings
 /// metrics.csv                             a row an island and generation
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
+/// map.csv  map/<x>-<y>.csv                the best of each cell of a map of features, if one was drawn
 /// summary.json                            digest, best fitness, evaluations, throughput
 /// recording.rrd                           the run as a film
 /// panic-<i>.<generation>.<k>.csv          a genome whose evaluation panicked on island i: a bug
@@ -22,6 +23,7 @@ use std::path::{Path, PathBuf};
 /// reports/island-<i>.log                  what every generation of an island was like
 /// lineages/island-<i>.log                 who was born of whom on an island, generation by generation
 /// migrations/island-<i>.log               every outbox that an island sent
+/// arrivals/island-<i>.log                 what an island took in, where islands do not wait for each other
 /// checkpoints/island-<i>/<generation>.ckpt   an island's state: the newest two
 /// .partial/                               what is not whole yet, while a launcher is at work
 /// ```
@@ -134,6 +136,24 @@ impl RunDir {
         self.0.join("metrics.csv")
     }
 
+    /// The map of elites.
+    pub fn map(&self) -> PathBuf {
+        self.0.join("map.csv")
+    }
+
+    /// The genome in a cell of it.
+    pub fn map_genome(&self, [x, y]: [u32; 2]) -> PathBuf {
+        self.0.join("map").join(format!("{x}-{y}.csv"))
+    }
+
+    /// Makes the folder of those genomes.
+    ///
+    /// # Errors
+    /// If it cannot be made, or is a link.
+    pub fn make_map(&self) -> Result<(), StoreError> {
+        make(&self.0.join("map"))
+    }
+
     /// The genome of the best creature ever.
     pub fn champion_genome(&self) -> PathBuf {
         self.0.join("champion.csv")
@@ -179,6 +199,11 @@ impl RunDir {
         self.0.join("migrations").join(format!("island-{island}.log"))
     }
 
+    /// What an island took in, where islands do not wait for each other.
+    pub fn arrivals(&self, island: u32) -> PathBuf {
+        self.0.join("arrivals").join(format!("island-{island}.log"))
+    }
+
     /// The folder of an island's checkpoints; nothing else lies there.
     pub fn checkpoints(&self, island: u32) -> PathBuf {
         self.0.join("checkpoints").join(format!("island-{island}"))
@@ -211,7 +236,15 @@ impl Claim {
         Ok(())
     }
 
-    fn sweep(&self) {
+    /// Makes the folder of what islands take in, which only runs have in which they do not wait for each other.
+    ///
+    /// # Errors
+    /// Like [`Claim::make_folders`].
+    pub fn make_arrivals(&self) -> Result<(), StoreError> {
+        make(&self.dir.path().join("arrivals"))
+    }
+
+    pub(super) fn sweep(&self) {
         // What a link leads to is somebody else's.
         if is_link(&self.dir.partial()) {
             return;
@@ -239,7 +272,7 @@ fn private() -> DirBuilder {
 }
 
 /// Makes a folder of a run; it may exist, but not as a link.
-fn make(folder: &Path) -> Result<(), StoreError> {
+pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
     private().create(folder).map_err(StoreError::io("make the folder", folder))?;
     if is_link(folder) {
         return Err(StoreError::damaged(

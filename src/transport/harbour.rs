@@ -2,6 +2,7 @@
 
 use super::burial;
 use super::claim::Claim;
+use super::files;
 use super::services::{
     self, Node, OutboxService, Plan, ReportService, RequestService, WakeUpService,
 };
@@ -36,12 +37,13 @@ impl<G: Gene> Harbour<G> {
     /// killed launchers have left is removed first.
     ///
     /// # Errors
-    /// If the run asks for more migrants or memory than there can be, its id is in use, or something cannot be
+    /// If the run asks for more migrants, edges, memory or files than there can be, its id is in use, or something cannot be
     /// made.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
         Domain::remove_abandoned();
         domain.check_space(plan.bytes::<G>())?;
+        files::provide(plan.files())?;
         let claim = domain.create()?;
         // From here on dropping it removes what was made, also where the rest of the making fails.
         let mut harbour = Self { services: None, domain: domain.clone(), claim: Some(claim) };

@@ -128,6 +128,7 @@ impl Limits {
             mean: statistics.mean.get(),
             median: statistics.median.get(),
             diversity: statistics.diversity,
+            phenotype_diversity: statistics.phenotype_diversity,
             spread_low: statistics.spread.low,
             spread_high: statistics.spread.high,
             spread_counts: statistics.spread.counts,
@@ -182,6 +183,8 @@ impl Limits {
             gene_count: from.genome.len() as u32,
             id: birthplace(from.id),
             parents: from.parents.map(|parent| parent.map_or(NOBODY, birthplace)),
+            origin: from.origin,
+            reserved: 0,
         })
     }
 
@@ -197,9 +200,12 @@ impl Limits {
         let genome: Vec<G> = genes.iter().map(|gene| gene.0).collect();
         require(genome.iter().all(Gene::is_valid), Rejection::Gene)?;
         let [mother, father] = header.parents.map(|parent| self.parent(parent));
+        let id = self.id(header.id)?;
+        require(header.origin <= id.generation, Rejection::Lineage)?;
         Ok(Individual {
-            id: self.id(header.id)?,
+            id,
             parents: [mother?, father?],
+            origin: header.origin,
             genome,
             fitness: fitness(header.fitness)?,
         })
@@ -231,7 +237,8 @@ fn fitness(score: f64) -> Result<Fitness, Rejection> {
 
 fn statistics(header: &ReportHeader) -> Result<Statistics, Rejection> {
     let ReportHeader { spread_low: low, spread_high: high, spread_counts: counts, .. } = *header;
-    require(header.diversity.is_finite(), Rejection::Number)?;
+    let diversities = [header.diversity, header.phenotype_diversity];
+    require(diversities.into_iter().all(f64::is_finite), Rejection::Number)?;
     require(low.is_finite() && high.is_finite() && low <= high, Rejection::Number)?;
     Ok(Statistics {
         spread: Spread { low, high, counts },
@@ -239,6 +246,7 @@ fn statistics(header: &ReportHeader) -> Result<Statistics, Rejection> {
         mean: fitness(header.mean)?,
         median: fitness(header.median)?,
         diversity: header.diversity,
+        phenotype_diversity: header.phenotype_diversity,
     })
 }
 

@@ -18,8 +18,8 @@
 //!
 //! Below these, from the ground: `names` says what everything of a run is called, `shared_memory` finds it, a
 //! `claim` says whose it is, and `remains` is what is there without a living launcher; `wire` is what travels,
-//! and `limits` what of it is believed; `services` lists the services, `ports` opens their ends, and `burial`
-//! gives free what dead islands held.
+//! and `limits` what of it is believed; `services` lists the services, `files` sees to it that they can be open,
+//! `ports` opens their ends, and `burial` gives free what dead islands held.
 //!
 //! # How it is meant to be used
 //!
@@ -39,6 +39,9 @@
 //! - The launcher waits for a child that has died, calls [`Harbour::cleanup_dead_nodes`], and starts the
 //!   next one.
 //!
+//! Where islands do not wait for each other ([`ExchangeMode::Async`](crate::archipelago::ExchangeMode)) nothing is
+//! asked for: the newest outboxes push older ones out.
+//!
 //! Architecture invariants: this is the only importer of iceoryx2. Nothing here decides a result: time-outs,
 //! losses and repetitions change when something arrives, never what. Nothing received is believed before it
 //! was checked.
@@ -47,6 +50,7 @@ mod burial;
 mod claim;
 mod domain;
 mod exchange;
+mod files;
 mod harbour;
 mod limits;
 mod lookout;
@@ -95,6 +99,28 @@ pub enum TransportError {
         migrants: usize,
         /// How many fit.
         max: usize,
+    },
+    /// Too many islands are neighbours.
+    #[error(
+        "the topology has {edges} edges, and {max} is the most: each takes open files and shared memory; take fewer \
+         islands or a sparser topology, such as torus, hypercube or random-regular:3"
+    )]
+    TooManyEdges {
+        /// The edges that it has.
+        edges: usize,
+        /// The edges that it may have.
+        max: usize,
+    },
+    /// A process may not have so many files open.
+    #[error(
+        "a process of this run may have up to {needed} files open, and the system lets it have {limit}: raise that \
+         (ulimit -Hn), or take fewer islands or a sparser topology"
+    )]
+    TooManyFiles {
+        /// How many a process of the run needs at most.
+        needed: u64,
+        /// How many it may have.
+        limit: u64,
     },
     /// A text that is no run id.
     #[error("“{text}” is no run id: it must be a hexadecimal number of at most 16 digits")]

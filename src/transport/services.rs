@@ -4,8 +4,8 @@
 use super::limits::Limits;
 use super::wire::{BatchHeader, ReportHeader, ResendRequest, WireGene};
 use super::{Domain, TransportError};
-use crate::archipelago::Archipelago;
 use crate::archipelago::migration::MIGRANTS_MAX;
+use crate::archipelago::{Archipelago, ExchangeMode, Graph};
 use crate::evolution::Gene;
 use iceoryx2::prelude::{NodeBuilder, ServiceName, SignalHandlingMode};
 use iceoryx2::service::builder::{event, publish_subscribe};
@@ -37,13 +37,24 @@ const REPORTS_HISTORY: usize = 8;
 /// The launcher, and one who watches by hand.
 const REPORT_READERS: usize = 2;
 
+/// The most edges that a topology may have: all to all among 64 islands. Each takes some twenty open files of its
+/// two islands and several objects in shared memory, and the time to open one grows with how many there are: one of
+/// 256 islands that all send to all others took 7 s to open its ends, and all would make 200,000 objects.
+pub const EDGES_MAX: usize = 64 * 63;
+/// Outboxes that are kept for late openers where islands do not wait for each other: only the newest is of use, and
+/// one more in case that it dies over sending it.
+const HISTORY_ASYNC: usize = 2;
+
 /// How much of everything a run needs.
 #[derive(Debug, Clone)]
 pub struct Plan {
     pub limits: Limits,
-    archipelago: Archipelago,
+    islands: u32,
+    graph: Graph,
     /// Outboxes that a late opener still gets.
     pub history: usize,
+    /// Whether only the newest outboxes are of use.
+    newest_count: bool,
 }
 
 impl Plan {
@@ -53,12 +64,30 @@ impl Plan {
         if migrants > MIGRANTS_MAX {
             return Err(TransportError::TooManyMigrants { migrants, max: MIGRANTS_MAX });
         }
-        // Round the ring, a sender can be this many epochs ahead of its reader.
-        let others = archipelago.islands.saturating_sub(1) as usize;
-        let ahead = others.saturating_mul(1 + archipelago.migration.lag as usize);
-        let history = ahead.saturating_add(2).min(HISTORY_MAX);
+        let (graph, islands) = (archipelago.graph(), archipelago.islands);
+        let edges = graph.edges();
+        if edges > EDGES_MAX {
+            return Err(TransportError::TooManyEdges { edges, max: EDGES_MAX });
+        }
+        // A sender waits for whom its reader waits for: so it can be this many epochs ahead of its reader.
+        let steps = graph.longest_way_back().unwrap_or(islands) as usize;
+        let ahead = steps.saturating_mul(1 + archipelago.migration.lag as usize);
+        let newest_count = archipelago.migration.exchange == ExchangeMode::Async;
+        let history = match newest_count {
+            true => HISTORY_ASYNC,
+            false => ahead.saturating_add(2).min(HISTORY_MAX),
+        };
         let limits = Limits::of(domain.run_id(), archipelago);
-        Ok(Self { limits, archipelago: *archipelago, history })
+        Ok(Self { limits, islands, graph, history, newest_count })
+    }
+
+    /// The files that one process of the run has open at most: the launcher, which holds all services, or the island
+    /// with the most neighbours. From above, as measured, with a flat rate for all that is no exchange.
+    pub fn files(&self) -> u64 {
+        const FLAT: usize = 128;
+        let island = |island| 12 * self.in_degree(island) + 10 * self.out_degree(island);
+        let most = (0..self.islands).map(island).max().unwrap_or(0);
+        (FLAT + most.max(6 * self.islands as usize)) as u64
     }
 
     /// The most genes in one outbox; at least one, since a slice of none cannot be reserved.
@@ -90,11 +119,11 @@ impl Plan {
                 outbox.saturating_mul(outboxes).saturating_add(report.saturating_mul(reports));
             samples.saturating_add(ports * PORT).saturating_mul(WITH_SUCCESSOR) as u64
         };
-        (0..self.archipelago.islands).map(island).fold(0, u64::saturating_add)
+        (0..self.islands).map(island).fold(0, u64::saturating_add)
     }
 
-    /// An island's outboxes. Nothing is pushed out of a full buffer, or epochs would be lost in the middle:
-    /// what does not fit is not delivered, and asked for again.
+    /// An island's outboxes. Where all count nothing is pushed out of a full buffer, or epochs would be lost in the
+    /// middle: what does not fit is not delivered, and asked for again.
     pub fn outboxes<G: Gene>(
         &self,
         node: &Node,
@@ -104,7 +133,7 @@ impl Plan {
         Ok(builder
             .publish_subscribe::<[WireGene<G>]>()
             .user_header::<BatchHeader>()
-            .enable_safe_overflow(false)
+            .enable_safe_overflow(self.newest_count)
             .history_size(self.history)
             .subscriber_max_buffer_size(self.buffer())
             .subscriber_max_borrowed_samples(BORROWED)
@@ -169,7 +198,7 @@ impl Plan {
     // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned
     // up.
     fn nodes(&self) -> usize {
-        self.archipelago.islands as usize + 6
+        self.islands as usize + 6
     }
 
     fn outbox_readers(&self, island: u32) -> usize {
@@ -177,11 +206,11 @@ impl Plan {
     }
 
     fn out_degree(&self, island: u32) -> usize {
-        self.archipelago.out_neighbours(island).len()
+        self.graph.out_neighbours(island).len()
     }
 
     fn in_degree(&self, island: u32) -> usize {
-        self.archipelago.in_neighbours(island).len()
+        self.graph.in_neighbours(island).len()
     }
 }
 

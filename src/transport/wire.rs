@@ -26,7 +26,7 @@ unsafe impl<G: Gene> ZeroCopySend for WireGene<G> {
 /// All of an individual but its genes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.IndividualHeader.v1")]
+#[type_name("islands.IndividualHeader.v2")]
 pub struct IndividualHeader {
     /// Its fitness, negative infinity for the worst.
     pub fitness: f64,
@@ -36,6 +36,10 @@ pub struct IndividualHeader {
     pub id: [u32; 3],
     /// Its parents' birthplaces, [`NOBODY`] where it has none.
     pub parents: [[u32; 3]; 2],
+    /// The generation in which its oldest ancestor was born.
+    pub origin: u32,
+    /// Zero: makes the padding a field, so that no byte is left to chance.
+    pub reserved: u32,
 }
 
 /// A parent that does not exist.
@@ -44,7 +48,7 @@ pub const NOBODY: [u32; 3] = [u32::MAX; 3];
 /// The header of an outbox; the payload is the genomes of its migrants.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.BatchHeader.v1")]
+#[type_name("islands.BatchHeader.v2")]
 pub struct BatchHeader {
     /// The run that it belongs to.
     pub run_id: u64,
@@ -63,7 +67,7 @@ pub struct BatchHeader {
 /// The header of a report; the payload is the genome of a new champion, or nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.ReportHeader.v2")]
+#[type_name("islands.ReportHeader.v3")]
 pub struct ReportHeader {
     /// The run that it belongs to.
     pub run_id: u64,
@@ -85,8 +89,10 @@ pub struct ReportHeader {
     pub mean: f64,
     /// The median fitness.
     pub median: f64,
-    /// The diversity.
+    /// The diversity of genomes.
     pub diversity: f64,
+    /// The diversity of phenotypes.
+    pub phenotype_diversity: f64,
     /// The smallest score.
     pub spread_low: f64,
     /// The largest score.
@@ -117,7 +123,7 @@ pub struct ResendRequest {
 }
 
 // A changed size is a changed layout: give the type a new name, and only then change the number.
-const _: () = assert!(size_of::<IndividualHeader>() == 48);
-const _: () = assert!(size_of::<BatchHeader>() == 24 + 48 * MIGRANTS_MAX);
-const _: () = assert!(size_of::<ReportHeader>() == 24 + 48 + 10 * 8 + 16 * 4 + 7 * 8);
+const _: () = assert!(size_of::<IndividualHeader>() == 56);
+const _: () = assert!(size_of::<BatchHeader>() == 24 + 56 * MIGRANTS_MAX);
+const _: () = assert!(size_of::<ReportHeader>() == 24 + 56 + 11 * 8 + 16 * 4 + 7 * 8);
 const _: () = assert!(size_of::<ResendRequest>() == 16);

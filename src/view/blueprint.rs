@@ -1,8 +1,7 @@
 //! The arrangement of the viewer.
 
 use super::card::{Program, RunCard};
-use super::{GENERATION, PLAYBACK, ViewError, palette};
-use crate::simulation::{Ground, Terrain};
+use super::{GENERATION, PLAYBACK, ViewError, palette, race};
 use rerun::blueprint::{
     BarChartView, Blueprint, BlueprintActivation, BlueprintPanel, ContainerLike, GraphView, Grid,
     Horizontal, SelectionPanel, Spatial3DView, StateTimelineView, Tabs, TextDocumentView,
@@ -47,8 +46,11 @@ pub fn messages(
     audience: Audience,
 ) -> Result<(Vec<LogMsg>, BlueprintActivationCommand), ViewError> {
     let mut layout = Layout::default();
-    let panels =
-        Horizontal::new([layout.stages(card), layout.figures(card)]).with_column_shares([3.0, 2.0]);
+    let [left, right] = match card.has_stage {
+        true => [layout.stages(card), layout.figures(card)],
+        false => layout.figures_alone(card),
+    };
+    let panels = Horizontal::new([left, right]).with_column_shares([3.0, 2.0]);
     let blueprint = Blueprint::new(panels)
         .with_auto_layout(false)
         .with_auto_views(false)
@@ -81,29 +83,9 @@ fn companion() -> EyeControls3D {
         .with_eye_up([0.0, 0.0, 1.0])
 }
 
-/// An eye to the right of all lanes.
-fn marshal(card: &RunCard) -> EyeControls3D {
-    let (middle, width) = (card.track().middle_y(), card.track().width_m());
-    // The more lanes, the more from above.
-    let above = 0.5 + 0.02 * width.min(20.0);
-    EyeControls3D::new()
-        .with_position([2.4 - 0.1 * width, middle - 0.7 * width - 3.0, above * width + 2.4])
-        .with_look_target([3.2, middle - 0.04 * width, 0.0])
-        .with_eye_up([0.0, 0.0, 1.0])
-}
-
-/// An eye outside of a terrain, on the side where creatures begin, that sees them and the middle.
-fn visitor(terrain: &Terrain) -> EyeControls3D {
-    let half_m = terrain.half_m().cast::<f32>();
-    let far_m = half_m.max();
-    EyeControls3D::new()
-        .with_position([
-            0.75 * half_m.x,
-            -half_m.y - 0.5 * far_m,
-            terrain.wall_top_m() as f32 + 0.45 * far_m,
-        ])
-        .with_look_target([0.0, -0.35 * half_m.y, terrain.height_m(0.0, 0.0) as f32 * 0.25])
-        .with_eye_up([0.0, 0.0, 1.0])
+/// A name, and the unit of fitness if it has one.
+fn with_unit(name: &str, card: &RunCard) -> String {
+    if card.unit.is_empty() { name.to_owned() } else { format!("{name} ({})", card.unit) }
 }
 
 /// From the beginning to the end, wherever the film is.
@@ -189,12 +171,8 @@ impl Layout {
         contents.extend((0..lanes).flat_map(|lane| {
             ["ground/**", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
-        let view = Spatial3DView::new("Race").with_origin("/").with_contents(contents);
-        let eye = match card.ground {
-            Ground::Plane => marshal(card),
-            Ground::Terrain(terrain) => visitor(terrain),
-        };
-        self.stage(view, &eye)
+        let view = Spatial3DView::new("Race").with_origin(race::FRAME).with_contents(contents);
+        self.stage(view, &race::eye(card))
     }
 
     fn stage(&mut self, view: Spatial3DView, eye: &EyeControls3D) -> ContainerLike {
@@ -229,25 +207,46 @@ impl Layout {
     }
 
     fn figures_of_run(&mut self, card: &RunCard, run: ContainerLike) -> ContainerLike {
-        let unit = &card.unit;
-        let best = self.curves(card, format!("Best fitness ({unit})"), "fitness/best");
-        let mean = self.curves(card, format!("Mean fitness ({unit})"), "fitness/mean");
+        let (curves, diversity) = self.growth(card);
+        let (both, words) = (self.islands(card), self.words(run));
+        Vertical::new([curves, diversity, both, words]).with_row_shares([3.0, 2.0, 2.4, 2.2]).into()
+    }
+
+    /// Both sides of a run in which there is nothing to be seen but figures.
+    fn figures_alone(&mut self, card: &RunCard) -> [ContainerLike; 2] {
+        let (curves, diversity) = self.growth(card);
+        let run = TextDocumentView::new("Run").with_origin("run").into();
+        let family = GraphView::new("Family").with_origin("family").into();
+        let (both, words) = (self.islands(card), self.words(run));
+        let left = Vertical::new([curves, diversity]).with_row_shares([3.0, 2.0]);
+        let right = Vertical::new([family, both, words]).with_row_shares([2.4, 2.0, 2.4]);
+        [left.into(), right.into()]
+    }
+
+    /// The best and the mean fitness, and the diversity.
+    fn growth(&mut self, card: &RunCard) -> (ContainerLike, ContainerLike) {
+        let best = self.curves(card, with_unit("Best fitness", card), "fitness/best");
+        let mean = self.curves(card, with_unit("Mean fitness", card), "fitness/mean");
         let diversity =
             self.curves(card, "Diversity (mean distance of genomes, 0–1)".into(), "diversity");
+        (Tabs::new([best, mean]).into(), diversity)
+    }
+
+    /// Who sends to whom, and each population's scores.
+    fn islands(&mut self, card: &RunCard) -> ContainerLike {
         let topology = GraphView::new("Topology").with_origin("topology").into();
         let spread = card.lanes().map(|(island, _)| {
-            let view = BarChartView::new(format!("Spread {island} ({unit})"));
+            let view = BarChartView::new(with_unit(&format!("Spread {island}"), card));
             self.no_legend(view.with_origin(format!("population/{island}")))
         });
         let spread = Tabs::new(spread.collect::<Vec<_>>());
-        let both = Horizontal::new([topology, spread.into()]);
+        Horizontal::new([topology, spread.into()]).into()
+    }
+
+    fn words(&mut self, run: ContainerLike) -> ContainerLike {
         let states = StateTimelineView::new("Island state").with_origin("state").into();
         self.set(&states, "TimeAxis", &whole_film());
-        let words = Tabs::new([self.events(), states, run]);
-        let curves = Tabs::new([best, mean]);
-        Vertical::new([curves.into(), diversity, both.into(), words.into()])
-            .with_row_shares([3.0, 2.0, 2.4, 2.2])
-            .into()
+        Tabs::new([self.events(), states, run]).into()
     }
 
     /// Curves over the whole film, whose legend is left out where it would hide them.

@@ -17,6 +17,8 @@ pub struct RunCard {
     pub description_markdown: String,
     /// Who sends to whom.
     pub topology_edges: Vec<(u32, u32)>,
+    /// Whether there are bodies to show.
+    pub has_stage: bool,
     /// Whether there is a family to show.
     pub has_family: bool,
     /// How fast generations pass in the film.

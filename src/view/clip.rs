@@ -6,6 +6,7 @@ use super::heading::Heading;
 use super::scenery::Track;
 use super::{GENERATION, PLAYBACK, ViewError, limbs, palette, steps};
 use crate::creature::{Controller, Morphology};
+use crate::simulation::Ground;
 use crate::simulation::trajectory::Trajectory;
 use rerun::{
     Color, LineStrips3D, Points3D, Radius, RecordingStream, SerializedComponentColumn, TimeColumn,
@@ -44,10 +45,19 @@ const RULER_MAX_M: f32 = 100.0;
 /// The highest that a label hangs in an island's own view, in reaches of the body: above it is out of sight.
 const MARKER_MAX: f32 = 0.78;
 
-/// Writes a clip into its place in the film.
-pub fn show(rec: &RecordingStream, screening: Screening<'_>, slot_s: f64) -> Result<(), ViewError> {
+/// How much higher a label hangs in the view of all lanes for each lane, in metres: from farther away and above it would
+/// cover its body.
+const FLAG_M: f32 = 0.06;
+
+/// Writes a clip into its place in the film, and returns how far along its lane something of it is ever seen, in
+/// metres.
+pub fn show(
+    rec: &RecordingStream,
+    screening: Screening<'_>,
+    slot_s: f64,
+) -> Result<f32, ViewError> {
     if screening.clip.trajectory.poses.is_empty() {
-        return Ok(());
+        return Ok(0.0);
     }
     let take = Take::new(screening, slot_s);
     take.stamp(rec);
@@ -55,7 +65,8 @@ pub fn show(rec: &RecordingStream, screening: Screening<'_>, slot_s: f64) -> Res
     steps::show(rec, &take)?;
     take.camera(rec)?;
     take.ruler(rec)?;
-    take.trail(rec)
+    take.trail(rec)?;
+    Ok(take.farthest_m() + 0.5 * take.reach_m)
 }
 
 /// Makes the view of a line follow a clip.
@@ -187,17 +198,24 @@ impl<'a> Take<'a> {
         let above = (self.top_m() - self.height_m) / self.reach_m;
         // Where champions are small on the screen, their labels need more room.
         self.label(rec, "marker", label, (above + 0.35).min(MARKER_MAX))?;
-        self.label(rec, "flag", short_label, above + 0.6)?;
+        let flag = above + 0.35 + FLAG_M * self.screening.lanes as f32 / self.reach_m;
+        self.label(rec, "flag", short_label, flag)?;
 
-        if self.trajectory().ground.terrain().is_some() {
-            return Ok(());
+        match self.trajectory().ground {
+            Ground::Plane => self.floor(rec),
+            Ground::Terrain(_) => Ok(()),
         }
-        let floor = self.follow.iter().map(|xy| {
-            let [x, y] = xy.map(|v| (v / FLOOR_STEP_M).round() * FLOOR_STEP_M);
-            [x, y, 0.0]
-        });
-        let places = Transform3D::update_fields().with_many_translation(floor);
-        self.send(rec, self.path("ground"), &self.frames, places.columns_of_unit_batches()?)
+    }
+
+    /// The floor below: a row whenever it moves.
+    fn floor(&self, rec: &RecordingStream) -> Result<(), ViewError> {
+        let places = self.follow.iter().map(|xy| xy.map(|v| (v / FLOOR_STEP_M).round()));
+        let mut rows: Vec<(usize, [f32; 2])> = self.frames.iter().copied().zip(places).collect();
+        rows.dedup_by_key(|(_, place)| *place);
+        let (frames, places): (Vec<usize>, Vec<_>) = rows.into_iter().unzip();
+        let places = places.into_iter().map(|[x, y]| [x * FLOOR_STEP_M, y * FLOOR_STEP_M, 0.0]);
+        let rows = Transform3D::update_fields().with_many_translation(places);
+        self.send(rec, self.path("ground"), &frames, rows.columns_of_unit_batches()?)
     }
 
     fn label(
@@ -213,6 +231,11 @@ impl<'a> Take<'a> {
             .with_labels([text])
             .with_show_labels(true);
         Ok(rec.log(self.path(&format!("follow/{name}")), &label)?)
+    }
+
+    /// How far along its lane it gets, in metres.
+    fn farthest_m(&self) -> f32 {
+        self.follow.iter().map(|&[x, _]| x).fold(0.0, f32::max)
     }
 
     /// The height of the highest point that any link ever reaches, above the ground below the body's middle.
@@ -231,7 +254,7 @@ impl<'a> Take<'a> {
         if self.trajectory().ground.terrain().is_some() {
             return Ok(());
         }
-        let farthest = self.follow.iter().map(|&[x, _]| x).fold(0.0, f32::max);
+        let farthest = self.farthest_m();
         let ruler = super::ruler::Ruler {
             // Whoever blows up is soon on another planet.
             metres: (farthest + 3.0).min(RULER_MAX_M).ceil() as u32,

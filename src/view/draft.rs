@@ -12,7 +12,9 @@ use tempfile::TempPath;
 #[derive(Debug)]
 pub struct Draft {
     path: PathBuf,
-    /// Where it is made; none once it is in its place.
+    /// Where it is made.
+    workshop: PathBuf,
+    /// The same; none once it is in its place.
     partial: Option<TempPath>,
     file: File,
 }
@@ -41,10 +43,25 @@ impl Draft {
     ) -> std::result::Result<Self, ViewError> {
         let failed = |source| ViewError::Create { path: path.to_owned(), source };
         let name = path.file_name().ok_or_else(|| failed(Error::other("it names no file")))?;
-        let partial = partial(&name.to_string_lossy());
-        let made = check_replaceable(path).and_then(|()| make(&partial));
+        let workshop = partial(&name.to_string_lossy());
+        let made = check_replaceable(path).and_then(|()| make(&workshop));
         let (file, partial) = made.map_err(failed)?;
-        Ok(Self { path: path.to_owned(), partial: Some(partial), file })
+        Ok(Self { path: path.to_owned(), workshop, partial: Some(partial), file })
+    }
+
+    /// Another draft for the same path, which is made beside this one.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn anew(&self) -> std::result::Result<Self, ViewError> {
+        let mut name = self.workshop.file_name().unwrap_or_default().to_owned();
+        name.push(".anew");
+        Self::of(&self.path, |_| self.workshop.with_file_name(name))
+    }
+
+    /// Where the file is by now.
+    pub fn place(&self) -> &Path {
+        self.partial.as_deref().unwrap_or(&self.path)
     }
 
     /// The file that it is for.

@@ -53,6 +53,10 @@ pub struct Screening<'a> {
     pub start_s: f64,
     /// The generation that it stands for: its champion may be older.
     pub generation: u32,
+    /// The slot of the film.
+    pub slot: u32,
+    /// How many lanes the film has.
+    pub lanes: u32,
 }
 
 /// Which clip comes when: one reel an island.
@@ -116,13 +120,20 @@ impl Film {
 
     /// The next clip of a lane to show, if a slot of it has opened; call until there is none.
     pub fn next(&mut self, lane: u32) -> Option<Screening<'_>> {
+        let lanes = self.lanes();
         let reel = self.reels.get_mut(lane as usize)?;
         let clip = reel.clip.as_ref().filter(|_| reel.filled < reel.opened)?;
         let slot = reel.filled;
         reel.filled += 1;
         reel.fresh = false;
         let generation = (slot * self.pace.generations_per_slot).min(reel.generation);
-        Some(Screening { clip, start_s: f64::from(slot) * self.pace.slot_s, generation })
+        Some(Screening {
+            clip,
+            start_s: f64::from(slot) * self.pace.slot_s,
+            generation,
+            slot,
+            lanes,
+        })
     }
 
     /// The number of lanes.

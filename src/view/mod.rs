@@ -5,8 +5,8 @@
 //! any time, and the old one is there until then. Read in this order: [`film`] says when a champion is on
 //! screen, so that no other need be simulated, [`clip`] turns its trajectory into columns of rows (`limbs` its links and motors, `steps` its feet, `heading` brings
 //! it into its lane), [`scenery`] is what never changes, [`ruler`] paints distances on the ground, [`family`] and
-//! [`state`] are graphs and bars, `figures` the curves of a replay, [`blueprint`] arranges it all, `file` writes it, [`live`] serves it, [`recorder`] puts it together, and
-//! [`palette`] holds every colour.
+//! [`state`] are graphs and bars, `figures` the curves of a replay, [`blueprint`] arranges it all, [`race`] the view of all lanes, `file` writes it, [`live`] serves it, [`recorder`] puts it together, `packing`
+//! makes it smaller in the end, and [`palette`] holds every colour.
 //!
 //! What a recording holds, by entity:
 //!
@@ -28,9 +28,10 @@
 //! /islands/{i}/prints
 //! /race/lanes/{i}                  floors that stay, for the view of all islands
 //! /race/ruler                      the start line and the distances on them
+//! /race/frame                      how far champions get: that view looks from here
 //! /fitness/best/{i}  /fitness/mean/{i}  /diversity/{i}  /population/{i}
 //! /state/island-{i}                how the island fares
-//! /events                          what happened, a text log
+//! /events/{i}                      what happened, a text log
 //! /family                          where the best champion comes from, a graph
 //! /topology                        who sends to whom, a graph
 //! ```
@@ -56,7 +57,9 @@ mod heading;
 mod landscape;
 mod limbs;
 pub mod live;
+mod packing;
 pub mod palette;
+pub mod race;
 pub mod recorder;
 pub mod ruler;
 pub mod scenery;

@@ -6,16 +6,23 @@ use super::family::{self, Family};
 use super::file::RrdFile;
 use super::film::{Film, Pace, Screening};
 use super::live::{self, Live, Server};
+use super::race::{self, Field};
 use super::scenery::Track;
 use super::state::{self, Mood};
 use super::{
-    APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, figures, palette, scenery,
+    APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, figures, packing, palette,
+    scenery,
 };
 use crate::archipelago::island::Report;
 use crate::evolution::population::SPREAD_BARS;
 use crate::evolution::{Fitness, Spread};
+use rerun::log::ChunkBatcherConfig;
 use rerun::sink::LogSink;
-use rerun::{ApplicationId, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, TextLog};
+use rerun::{
+    ApplicationId, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, TextLog, Transform3D,
+};
+
+use std::time::Duration;
 
 /// A bar of a histogram is at least so wide, in the unit of fitness: equal scores need a bar too.
 const BAR_WIDTH_MIN: f64 = 1e-6;
@@ -24,6 +31,7 @@ const BAR_WIDTH_MIN: f64 = 1e-6;
 pub struct Recorder {
     stream: RecordingStream,
     film: Film,
+    field: Field,
     program: Program,
     track: Track,
     server: Option<Server>,
@@ -51,13 +59,28 @@ impl Recorder {
             sink.send_blueprint(messages, activation);
         }
         let sinks: Vec<_> = sinks.into_iter().map(|(_, sink)| sink).collect();
-        let stream = RecordingStreamBuilder::new(application).enabled(on).set_sinks(sinks)?;
+        let stream = RecordingStreamBuilder::new(application)
+            .enabled(on)
+            .batcher_config(row_by_row())
+            .set_sinks(sinks)?;
         // The wall clock has no place in a film.
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
         scenery::build(&stream, &card)?;
         let film = Film::new(card.lane_count(), card.pace);
-        Ok(Self { stream, film, program: card.program, track: card.track(), server, file, draft })
+        let track = card.track();
+        let mut recorder = Self {
+            stream,
+            film,
+            field: Field::new(track),
+            program: card.program,
+            track,
+            server,
+            file,
+            draft,
+        };
+        recorder.frame(0.0, 0, |field| Some(field.reach(0.0)))?;
+        Ok(recorder)
     }
 
     /// What to give to a viewer to watch live: `rerun ADDRESS`.
@@ -112,13 +135,14 @@ impl Recorder {
     pub fn play(&mut self, clip: &Clip, slot: u32) -> Result<(), ViewError> {
         let slot_s = self.film.pace().slot_s;
         let start_s = f64::from(slot) * slot_s;
-        let screening = Screening { clip, start_s, generation: clip.generation };
-        clip::show(&self.stream, screening, slot_s)?;
+        let lanes = self.film.lanes();
+        let screening = Screening { clip, start_s, generation: clip.generation, slot, lanes };
+        let far_m = clip::show(&self.stream, screening, slot_s)?;
         figures::show(&self.stream, screening, slot_s)?;
         if self.program == Program::Line {
             clip::follow(&self.stream, screening, slot_s, self.track)?;
         }
-        Ok(())
+        self.frame(start_s, clip.generation, |field| Some(field.reach(far_m)))
     }
 
     /// What the creature of a slot got, in a film of a line.
@@ -162,7 +186,8 @@ impl Recorder {
         self.stamp(generation);
         let color = island.map_or(palette::MARKS, palette::island);
         let line = TextLog::new(text).with_level("INFO").with_color(palette::opaque(color));
-        Ok(self.stream.log("events", &line)?)
+        let path = island.map_or("events".to_owned(), |island| format!("events/{island}"));
+        Ok(self.stream.log(path, &line)?)
     }
 
     /// Waits until everything is written. Only here a full disk is noticed: call it now and then.
@@ -195,7 +220,19 @@ impl Recorder {
         }
         self.flush()?;
         self.file.finish().map_err(|message| self.cannot_write(message))?;
-        self.draft.publish()
+        match self.packed() {
+            Ok(mut packed) => packed.publish(),
+            // What there is has everything, too.
+            Err(_) => self.draft.publish(),
+        }
+    }
+
+    /// The same in less room.
+    fn packed(&self) -> Result<Draft, ViewError> {
+        let packed = self.draft.anew()?;
+        let done = packing::pack(self.draft.place(), packed.file()?);
+        done.map_err(|message| self.cannot_write(message))?;
+        Ok(packed)
     }
 
     fn cannot_write(&self, message: String) -> ViewError {
@@ -206,14 +243,39 @@ impl Recorder {
     fn roll(&mut self, lane: u32) -> Result<(), ViewError> {
         let slot_s = self.film.pace().slot_s;
         while let Some(screening) = self.film.next(lane) {
-            clip::show(&self.stream, screening, slot_s)?;
+            let Screening { start_s, generation, slot, .. } = screening;
+            let far_m = clip::show(&self.stream, screening, slot_s)?;
+            self.frame(start_s, generation, |field| field.learn(slot, far_m))?;
         }
         Ok(())
+    }
+
+    /// From a film time on, in seconds, the view of all lanes reaches as far as is told, if anything is.
+    fn frame(
+        &mut self,
+        start_s: f64,
+        generation: u32,
+        told: impl FnOnce(&mut Field) -> Option<Transform3D>,
+    ) -> Result<(), ViewError> {
+        let Some(frame) = told(&mut self.field) else { return Ok(()) };
+        self.stream.set_duration_secs(PLAYBACK, start_s);
+        self.stream.set_time_sequence(GENERATION, generation);
+        race::show(&self.stream, &frame)
     }
 
     fn stamp(&self, generation: u32) {
         self.stream.set_duration_secs(PLAYBACK, self.film.pace().film_s(generation));
         self.stream.set_time_sequence(GENERATION, generation);
+    }
+}
+
+/// Every row is sent by itself and at once: how many came together would depend on the clock.
+fn row_by_row() -> ChunkBatcherConfig {
+    ChunkBatcherConfig {
+        flush_tick: Duration::MAX,
+        flush_num_rows: 0,
+        flush_num_bytes: 0,
+        ..ChunkBatcherConfig::DEFAULT
     }
 }
 

@@ -13,6 +13,8 @@ use std::f32::consts::TAU;
 
 /// The width of a lane, in metres.
 const LANE_M: f32 = 3.0;
+/// The height of the distances beside four lanes, in metres.
+const DIGIT_M: f32 = 0.4;
 /// The width of each of many lanes, in metres: it is more important to see them all.
 const NARROW_LANE_M: f32 = 2.0;
 /// So many lanes are many.
@@ -30,19 +32,8 @@ const COMMON_HUE: u32 = 7;
 /// Writes everything that stands still.
 pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
     rec.log_static("run", &TextDocument::from_markdown(card.description_markdown.as_str()))?;
-    for root in ["islands", "race", "line"] {
-        rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
-    }
-    let track = card.track();
-    match card.ground {
-        Ground::Plane => {
-            card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
-            marks(rec, track)?;
-        }
-        Ground::Terrain(terrain) => {
-            card.lanes().try_for_each(|(index, lane)| arena(rec, terrain, index, lane.hue))?;
-            land(rec, terrain, "race/lanes/0", COMMON_HUE)?;
-        }
+    if card.has_stage {
+        stages(rec, card)?;
     }
     match card.program {
         Program::Race | Program::Line => figures::configure(rec, card),
@@ -50,6 +41,24 @@ pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
             card.lanes().try_for_each(|(island, _)| series(rec, island))?;
             state::configure(rec, card)?;
             topology(rec, card)
+        }
+    }
+}
+
+/// The places of all champions.
+fn stages(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
+    for root in ["islands", "race", "line"] {
+        rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
+    }
+    let track = card.track();
+    match card.ground {
+        Ground::Plane => {
+            card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
+            marks(rec, track)
+        }
+        Ground::Terrain(terrain) => {
+            card.lanes().try_for_each(|(index, lane)| arena(rec, terrain, index, lane.hue))?;
+            land(rec, terrain, "race/lanes/0", COMMON_HUE)
         }
     }
 }
@@ -110,6 +119,11 @@ impl Track {
         Self { lanes, lane_m: 0.0 }
     }
 
+    /// Whether all lanes are in the same place.
+    pub fn is_shared(self) -> bool {
+        self.lane_m == 0.0
+    }
+
     /// The middle of a lane: the first one is the leftmost for who looks along them.
     pub fn lane_y(self, lane: u32) -> f32 {
         -self.lane_m * lane as f32
@@ -123,6 +137,11 @@ impl Track {
     /// The width of all lanes, in metres.
     pub fn width_m(self) -> f32 {
         self.lane_m * self.lanes as f32
+    }
+
+    /// The height of the distances beside them, in metres.
+    pub fn digit_m(self) -> f32 {
+        DIGIT_M * (self.width_m() / 12.0).clamp(0.6, 1.8)
     }
 }
 
@@ -153,13 +172,13 @@ fn checker(
 
 /// The start line and a line at each metre, across all lanes.
 fn marks(rec: &RecordingStream, track: Track) -> Result<(), ViewError> {
-    let size = (track.width_m() / 12.0).clamp(0.6, 1.8);
+    let size = track.digit_m() / DIGIT_M;
     let edge = track.lane_m / 2.0;
     let ruler = Ruler {
         metres: LANE_AHEAD_M as u32 * 3 / 4,
         left_m: track.lane_y(0) + edge,
         right_m: track.lane_y(track.lanes.saturating_sub(1)) - edge,
-        digit_m: 0.4 * size,
+        digit_m: track.digit_m(),
         line_m: 0.014 * size,
         every: if size > 1.2 { 2 } else { 1 },
     };

@@ -1,7 +1,7 @@
 """What must be the same in every engine, and what is only reported."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
@@ -139,19 +139,28 @@ def _slides_m(islands: Islands, urdf: Path) -> dict[str, float]:
     return found
 
 
-def report_walkers(islands: Islands, specimens: list[Specimen]) -> None:
-    """Prints how far each walker gets in each engine, and the median of the ratios."""
-    print(f"\n| walker | {' | '.join(ENGINES)} |\n|---|{'---:|' * len(ENGINES)}")
+def report_walkers(islands: Islands, kind: str, specimens: list[Specimen]) -> None:
+    """Prints how far each walker gets in each engine, and what they come to."""
+    print(f"\n| {kind} | {' | '.join(ENGINES)} |\n|---|{'---:|' * len(ENGINES)}")
     table = []
     for specimen in specimens:
         masses = np.array([link["mass"] for link in islands.inspect(islands.export(specimen, "urdf"))["links"]])
         played = _played(islands, specimen, WALK)
         row = [_walked_m(played[engine], masses) for engine in ENGINES]
         table.append(row)
-        print(f"| {specimen.file.stem} | {' | '.join(f'{metres:.2f}' for metres in row)} |")
-    ratios = np.array(table)[:, 1:] / np.array(table)[:, :1]
-    medians = np.median(ratios, axis=0)
-    print(f"| median ratio | 1 | {' | '.join(f'{ratio:.2f}' for ratio in medians)} |\n")
+        _print_row(specimen.file.stem, row)
+    distances = np.array(table)
+    ratios = distances / distances[:, :1]
+    _print_row("median", np.median(distances, axis=0))
+    _print_row("median ratio", np.median(ratios, axis=0))
+    _print_row("first quartile", np.quantile(ratios, 0.25, axis=0))
+    _print_row("least ratio", ratios.min(axis=0))
+    _print_row("greatest ratio", ratios.max(axis=0))
+    print()
+
+
+def _print_row(name: str, numbers: Iterable[float]) -> None:
+    print(f"| {name} | {' | '.join(f'{number:.2f}' for number in numbers)} |")
 
 
 def _walked_m(poses: np.ndarray, masses: np.ndarray) -> float:

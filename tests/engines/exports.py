@@ -78,7 +78,7 @@ def genomes_of_the_course(fixtures: Path) -> list[Specimen]:
     return [Specimen(file, ("--profile", "coursework")) for file in sorted((fixtures / "course").glob("genome_*.csv"))]
 
 
-def walkers(fixtures: Path) -> list[Specimen]:
+def walkers(folder: Path) -> list[Specimen]:
     """Champions that were evolved to walk."""
-    files = sorted((fixtures / "walkers").glob("*.csv"), key=lambda file: int(file.stem.split("_")[-1]))
+    files = sorted(folder.glob("*.csv"), key=lambda file: int(file.stem.split("_")[-1]))
     return [Specimen(file) for file in files]

@@ -4,7 +4,8 @@
 use super::pieces::{self, Sum, archipelago};
 use super::wire;
 use islands::app::config::Config;
-use islands::archipelago::{Champion, Outbox, island};
+use islands::archipelago::arrivals::check_record;
+use islands::archipelago::{Arrivals, Champion, Outbox, island};
 use islands::creature::{Gene, Profile, express};
 use islands::evolution::{self, Individual};
 use islands::formats::{genome_csv, metrics, urdf};
@@ -38,6 +39,12 @@ pub fn record_logs(data: &[u8]) {
         fs::write(&path, bytes).expect("it is writable");
         is_sound::<Champion<Gene>>(&path);
         is_sound::<Outbox<Gene>>(&path);
+        is_sound::<Arrivals>(&path);
+        if let Ok(contents) = RecordLog::<Arrivals>::read(&path)
+            && let Err(reason) = check_record(&contents.records, &archipelago(), 0)
+        {
+            is_one_sentence(&reason);
+        }
         // The last cuts off what is torn.
         let whole = is_sound::<Entry>(&path);
         let left = fs::read(&path).expect("it is there");
@@ -146,7 +153,7 @@ pub fn config(data: &[u8]) {
         let _ = archipelago.migration.immigration(generation);
         let _ = archipelago.migration.emigration(generation);
     }
-    let problem = config.problem();
+    let problem = config.locomotion();
     assert!((1..=config.max_genes).contains(&problem.genes) && problem.links_max >= 1);
 }
 

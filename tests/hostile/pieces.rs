@@ -27,7 +27,7 @@ pub fn archipelago() -> Archipelago {
         islands: 2,
         seed: 7,
         topology: Topology::Ring,
-        migration: Migration { interval: 1, migrants: 2, lag: 1 },
+        migration: Migration { interval: 1, migrants: 2, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 3,
             elites: 1,
@@ -39,7 +39,9 @@ pub fn archipelago() -> Archipelago {
                 shrink_rate: 0.2,
                 grow_rate: 0.2,
                 genes_max: 3,
+                ..Variation::default()
             },
+            ..Strategy::default()
         },
     }
 }
@@ -58,8 +60,8 @@ impl Problem for Sum {
         vec![self.random_gene(rng), self.random_gene(rng)]
     }
 
-    fn mutate_gene(&self, gene: &mut Gene, rate: f64, _: f64, rng: &mut Stream) {
-        gene.0[0] = if rate > 0.0 { rand::RngExt::random(rng) } else { gene.0[0] };
+    fn mutate_gene(&self, gene: &mut Gene, variation: &Variation, rng: &mut Stream) {
+        gene.0[0] = if variation.point_rate > 0.0 { rand::RngExt::random(rng) } else { gene.0[0] };
     }
 
     fn distance(&self, a: &[Gene], b: &[Gene]) -> f64 {

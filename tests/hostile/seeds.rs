@@ -92,7 +92,10 @@ pub fn urdfs() -> Vec<Vec<u8>> {
 pub fn configs() -> Vec<Vec<u8>> {
     let full = Config { seed: Some(7), threads: Some(2), ..Config::default() };
     let launched = "[launch]\nversion = \"0.1.0\"\nrun-id = \"00112233445566ff\"\n";
-    vec![full.to_toml().into(), format!("selection = \"rank:1.5\"\n{launched}").into()]
+    let numbers = "problem = \"rastrigin\"\ndimensions = 7\nrotated = true\n";
+    let bits = "problem = \"royal-road\"\nblock = 4\npoint-rate = 0.25\n";
+    let begun = format!("selection = \"rank:1.5\"\n{launched}");
+    vec![full.to_toml().into(), begun.into(), numbers.into(), bits.into()]
 }
 
 pub fn tables() -> Vec<Vec<u8>> {

@@ -88,9 +88,20 @@ fn report_fields(header: &mut ReportHeader, fields: &mut Fields<'_>) {
         fields.u32(field);
     }
     individual_fields(&mut header.champion, fields);
-    let ReportHeader { best, mean, median, diversity, spread_low, spread_high, seconds, .. } =
-        header;
-    for field in [best, mean, median, diversity, spread_low, spread_high, seconds] {
+    let ReportHeader {
+        best,
+        mean,
+        median,
+        diversity,
+        phenotype_diversity,
+        spread_low,
+        spread_high,
+        seconds,
+        ..
+    } = header;
+    for field in
+        [best, mean, median, diversity, phenotype_diversity, spread_low, spread_high, seconds]
+    {
         fields.f64(field);
     }
     header.spread_counts.iter_mut().for_each(|field| fields.u32(field));
@@ -99,10 +110,12 @@ fn report_fields(header: &mut ReportHeader, fields: &mut Fields<'_>) {
 }
 
 fn individual_fields(header: &mut IndividualHeader, fields: &mut Fields<'_>) {
-    let IndividualHeader { fitness, gene_count, id, parents } = header;
+    let IndividualHeader { fitness, gene_count, id, parents, origin, reserved } = header;
     fields.f64(fitness);
     fields.u32(gene_count);
     id.iter_mut().chain(parents.as_flattened_mut()).for_each(|field| fields.u32(field));
+    fields.u32(origin);
+    fields.u32(reserved);
 }
 
 fn genes(mut fields: Fields<'_>) -> Vec<WireGene<Gene>> {

@@ -4,15 +4,16 @@ mod panics;
 mod patience;
 
 use super::Failure;
+use super::catalogue::Visitor;
 use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::kinship::{Ear, FINISHED, READY, tell};
 use super::seeds;
-use crate::archipelago::{Archipelago, Arrival, Deed, Outbox, Step, Voyage};
-use crate::creature::Gene;
-use crate::evolution::Problem;
-use crate::store::{Journal, Logbook, Restored, RunDir};
+use super::subject::Subject;
+use crate::archipelago::{Archipelago, Arrival, Deed, ExchangeMode, Outbox, Step, Voyage};
+use crate::problems::Founded;
+use crate::store::{Journal, JournalReader, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
 use panics::Panics;
 use patience::Patience;
@@ -27,44 +28,65 @@ pub fn run(args: &IslandArgs) -> Result<(), Failure> {
     let ear = Ear::to(args.parent)?;
     let dir = RunDir::at(&args.dir);
     let config = Config::of_run(&dir)?;
-    let archipelago = config.archipelago();
-    // Before any thread makes a file: opening changes the umask for a moment.
-    let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(args.threads)
-        .build_global()
-        .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let Restored { logbook, island, warnings } =
-        Logbook::open(&dir, &archipelago, args.index, &config.settings())?;
-    for warning in warnings {
-        say(&format!("warning: {warning}"));
+    config.visit(Sailing { args, dir: &dir, config: &config, ear })
+}
+
+/// An island that is to evolve some problem.
+struct Sailing<'a> {
+    args: &'a IslandArgs,
+    dir: &'a RunDir,
+    config: &'a Config,
+    ear: Ear,
+}
+
+impl Visitor for Sailing<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let Self { args, dir, config, ear } = self;
+        let archipelago = config.archipelago();
+        // Before any thread makes a file: opening changes the umask for a moment.
+        let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(args.threads)
+            .build_global()
+            .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
+        let Restored { logbook, island, arrivals, warnings } =
+            Logbook::open(dir, &archipelago, args.index, &config.settings())?;
+        for warning in warnings {
+            say(&format!("warning: {warning}"));
+        }
+        let problem = seeds::founded(dir, config, problem)?;
+        let saved = island.as_ref().map(|island| island.generation);
+        let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
+        let voyage = voyage.with_record(arrivals);
+        let mut ship = Ship {
+            config,
+            archipelago: &archipelago,
+            problem: &problem.problem,
+            voyage,
+            exchange,
+            logbook,
+            ear,
+            patience: Patience::new(),
+            panics: Panics::of(dir),
+            generation_began: Stopwatch::start(),
+            told: Told::default(),
+            saved,
+            refused: BTreeMap::new(),
+            journals: BTreeMap::new(),
+        };
+        ship.catch_up(dir)?;
+        ship.sail(dir)
     }
-    let problem = seeds::founded(&dir, &config)?;
-    let saved = island.as_ref().map(|island| island.generation);
-    let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
-    let mut ship = Ship {
-        config: &config,
-        archipelago: &archipelago,
-        voyage,
-        exchange,
-        logbook,
-        ear,
-        patience: Patience::new(),
-        panics: Panics::of(&dir),
-        generation_began: Stopwatch::start(),
-        told: Told::default(),
-        saved,
-        refused: BTreeMap::new(),
-    };
-    ship.catch_up(&dir)?;
-    ship.sail()
 }
 
 /// An island and what connects it to the world: its neighbours, its files and its launcher.
-struct Ship<'a, P: Problem> {
+struct Ship<'a, P: Subject> {
     config: &'a Config,
     archipelago: &'a Archipelago,
-    voyage: Voyage<'a, P>,
+    problem: &'a P,
+    voyage: Voyage<'a, Founded<P>>,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
     ear: Ear,
@@ -76,6 +98,8 @@ struct Ship<'a, P: Problem> {
     saved: Option<u32>,
     /// Batches that were refused, by the island that they came as.
     refused: BTreeMap<u32, u64>,
+    /// The journals of neighbours from which was read what an earlier life took in.
+    journals: BTreeMap<u32, JournalReader<P::Gene>>,
 }
 
 /// What an island has told its launcher, once each.
@@ -85,13 +109,17 @@ struct Told {
     finished: bool,
 }
 
-impl<P: Problem<Gene = Gene>> Ship<'_, P> {
+impl<P: Subject> Ship<'_, P> {
     /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
     /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
     fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let Some(island) = self.voyage.island() else { return Ok(()) };
         let window = self.exchange.history();
-        let next = self.archipelago.migration.next_immigration(island.generation);
+        let migration = &self.archipelago.migration;
+        if migration.exchange == ExchangeMode::Async {
+            return self.send_since(self.logbook.epochs().saturating_sub(window));
+        }
+        let next = migration.next_immigration(island.generation);
         for source in self.archipelago.in_neighbours(island.index) {
             let journal = dir.migrations(source);
             match Journal::read(&journal, next..next.saturating_add(window)) {
@@ -106,7 +134,7 @@ impl<P: Problem<Gene = Gene>> Ship<'_, P> {
     }
 
     /// Evolves until all is done, and serves the neighbours until the launcher wants it to stop.
-    fn sail(&mut self) -> Result<(), Failure> {
+    fn sail(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let clock = Stopwatch::start();
         while !self.ear.heard_stop() {
             self.receive();
@@ -115,6 +143,8 @@ impl<P: Problem<Gene = Gene>> Ship<'_, P> {
             match self.voyage.advance(clock.elapsed()) {
                 Deed::Evolved(step) => self.conclude(&step)?,
                 Deed::Ask { sources, epoch } => self.ask(&sources, epoch),
+                Deed::Record(arrivals) => self.logbook.record_arrivals(&arrivals)?,
+                Deed::Recall(outboxes) => self.recall(dir, &outboxes)?,
                 Deed::Wait => self.wait()?,
                 Deed::Arrived => self.rest()?,
             }
@@ -137,13 +167,28 @@ impl<P: Problem<Gene = Gene>> Ship<'_, P> {
         let seconds = std::mem::replace(&mut self.generation_began, Stopwatch::start()).seconds();
         self.patience.learn(seconds);
         self.record(step, seconds)?;
-        self.panics.keep(step);
+        self.panics.keep(self.problem, step);
         let Config { checkpoint_interval, generations, .. } = *self.config;
         let generation = step.island.generation;
         match generation.is_multiple_of(checkpoint_interval) || generation == generations {
             true => self.save(),
             false => Ok(()),
         }
+    }
+
+    /// Reads in the neighbours' journals what an earlier life took in. What is not there its sender has yet to
+    /// evolve again.
+    fn recall(&mut self, dir: &RunDir, outboxes: &[(u32, u32)]) -> Result<(), Failure> {
+        let mut found = false;
+        for &(source, epoch) in outboxes {
+            let new = || JournalReader::of(dir.migrations(source));
+            let outbox = self.journals.entry(source).or_insert_with(new).outbox(epoch)?;
+            if let Some(outbox) = outbox.filter(|it| it.fits(self.archipelago, source)) {
+                self.voyage.recall(outbox);
+                found = true;
+            }
+        }
+        if found { Ok(()) } else { self.wait() }
     }
 
     fn ask(&self, sources: &[u32], epoch: u32) {
@@ -182,6 +227,10 @@ impl<P: Problem<Gene = Gene>> Ship<'_, P> {
         }
         let epoch = outbox.epoch;
         let epochs = self.config.generations / self.archipelago.migration.interval;
+        // Where nobody waits it would be taken in, and nobody could evolve it again.
+        if self.archipelago.migration.exchange == ExchangeMode::Async && epoch >= epochs {
+            return self.refuse(source, &"it is of an epoch after the end of the run");
+        }
         let arrival = self.voyage.receive(outbox);
         // A neighbour that is far ahead is no liar. One that is soon after the end may be of a run that was to
         // be longer.

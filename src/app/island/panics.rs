@@ -1,9 +1,8 @@
 //! Genomes whose evaluation panicked: a bug, and nobody finds it without them.
 
 use super::super::console::say;
+use super::super::subject::Subject;
 use crate::archipelago::Step;
-use crate::creature::Gene;
-use crate::formats::genome_csv;
 use crate::store::RunDir;
 
 /// Who finds no bug with so many genomes finds none with more, and a run may be long.
@@ -23,15 +22,15 @@ impl<'a> Panics<'a> {
 
     /// Writes the genomes of a generation into the run's folder, and tells the user about each. Only the first of a
     /// process are kept. A run whose disk is full goes on: it has its own word about that.
-    pub fn keep(&mut self, step: &Step<Gene>) {
+    pub fn keep<P: Subject>(&mut self, problem: &P, step: &Step<P::Gene>) {
         let (island, generation) = (step.report.island, step.report.generation);
         let room = KEPT_MAX - self.kept;
         for (count, genome) in step.panicked.iter().take(room).enumerate() {
             let path = self.dir.panic(island, generation, count);
             let place = path.display();
-            say(&match self.dir.write(&path, |file| genome_csv::write(genome, file)) {
+            say(&match self.dir.write(&path, |file| problem.write_genome(genome, file)) {
                 Ok(()) => format!(
-                    "warning: trying a creature made the program panic, and counts as failed: this is a bug; its \
+                    "warning: evaluating a genome made the program panic, and counts as failed: this is a bug; its \
                      genome is in {place}, see: islands evaluate {place}"
                 ),
                 Err(error) => format!("warning: a genome that shows a bug is lost: {error}"),
@@ -46,7 +45,9 @@ mod tests {
     use super::*;
     use crate::app::config::Config;
     use crate::archipelago::island;
+    use crate::creature::Gene;
     use crate::creature::gene::PARAMETER_COUNT;
+    use crate::formats::genome_csv;
     use std::fs::File;
 
     #[test]
@@ -55,14 +56,15 @@ mod tests {
         let dir = RunDir::at(folder.path().join("run"));
         let _claim = dir.create().unwrap();
         let config = Config { population: 2, elites: 1, genes: 1, ..Config::default() };
-        let mut step = island::genesis(&config.problem(), &config.archipelago(), 0);
+        let problem = config.locomotion();
+        let mut step = island::genesis(&problem, &config.archipelago(), 0);
         let genome = |value: usize| vec![Gene([value as f64 / 32.0; PARAMETER_COUNT])];
         step.report.island = 3;
         step.panicked = (0..7).map(genome).collect();
         let mut panics = Panics::of(&dir);
         for generation in 5..8 {
             step.report.generation = generation;
-            panics.keep(&step);
+            panics.keep(&problem, &step);
         }
         let read = |generation, count| {
             let file = File::open(dir.panic(3, generation, count)).ok()?;

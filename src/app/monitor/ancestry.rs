@@ -1,15 +1,15 @@
 //! When whose family is shown.
 
 use super::super::pedigree::Herald;
+use super::super::subject::Subject;
 use crate::archipelago::{Births, Champion, Lineage, Report};
-use crate::creature::Gene;
 use crate::evolution::{Fitness, Id};
 use crate::view::{Family, Pace};
 
 /// Shows, whenever a slot of the film opens, the family of the best champion that there is in its generation, once
 /// all islands have come so far: whoever films, the families are the same.
-pub struct Ancestry {
-    herald: Herald,
+pub struct Ancestry<P> {
+    herald: Herald<P>,
     pace: Pace,
     lineage: Lineage,
     /// The champions of each island: generation, who, and how good.
@@ -21,9 +21,9 @@ pub struct Ancestry {
     shown: Option<Id>,
 }
 
-impl Ancestry {
+impl<P: Subject> Ancestry<P> {
     /// Knows nobody.
-    pub fn new(herald: Herald, islands: u32, pace: Pace) -> Self {
+    pub fn new(herald: Herald<P>, islands: u32, pace: Pace) -> Self {
         Self {
             herald,
             pace,
@@ -39,7 +39,7 @@ impl Ancestry {
     pub fn learn(
         &mut self,
         report: &Report,
-        champion: Option<&Champion<Gene>>,
+        champion: Option<&Champion<P::Gene>>,
         births: Option<Births>,
     ) {
         let island = report.island as usize;

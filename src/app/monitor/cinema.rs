@@ -5,37 +5,35 @@ use super::super::config::Config;
 use super::super::console::say;
 use super::super::pedigree::{self, Herald};
 use super::super::result;
+use super::super::subject::{Shot, Subject};
 use super::ancestry::Ancestry;
 use super::logs::Sighting;
-use crate::archipelago::Champion;
-use crate::creature::Gene;
-use crate::evolution::{Evaluation, Outcome, Problem};
-use crate::problems::Locomotion;
-use crate::simulation::{Ground, Trajectory};
+use crate::archipelago::{Champion, ExchangeMode};
 use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// A recorder that simulates the champions that will be seen, and no others: filming must cost the islands
 /// little, and a film that is made anew must soon be where the run is.
-pub struct Cinema {
-    problem: Locomotion,
-    herald: Herald,
+pub struct Cinema<P: Subject> {
+    problem: P,
+    herald: Herald<P>,
     recorder: Recorder,
     /// Each island's newest champion, if it was not filmed.
-    unfilmed: Vec<Option<Champion<Gene>>>,
+    unfilmed: Vec<Option<Champion<P::Gene>>>,
     /// The generation of each island's newest champion.
     reigns_since: Vec<u32>,
-    ancestry: Ancestry,
+    ancestry: Ancestry<P>,
     /// Whom each island receives from.
     sources: Vec<Vec<u32>>,
+    /// What to say before the sources: where nobody waits, not all of them have sent something.
+    among: &'static str,
     has_shown: bool,
 }
 
 /// An island without a better champion for so many generations stagnates.
 const STAGNANT: u32 = 5;
 
-impl Cinema {
+impl<P: Subject> Cinema<P> {
     /// Begins a recording for the path `recording`, in `folder`, and serves it if wanted; where it cannot be
     /// served, it is only recorded.
     ///
@@ -46,9 +44,10 @@ impl Cinema {
         recording: &Path,
         live: Option<Live>,
         config: &Config,
+        problem: P,
         clip_every: Option<u32>,
     ) -> Result<Self, Failure> {
-        let card = run_card(config, clip_every);
+        let card = run_card(config, &problem, clip_every);
         let record = |live| Recorder::create(Draft::within(folder, recording)?, live, card.clone());
         let recorder = match record(live) {
             Err(error @ (ViewError::NoFreePort { .. } | ViewError::Serve { .. })) => {
@@ -57,15 +56,31 @@ impl Cinema {
             }
             result => result?,
         };
-        let (problem, islands) = (config.problem(), config.islands);
-        let herald = Herald::of(config);
-        let ancestry = Ancestry::new(herald, islands, recorder.pace());
+        let islands = config.islands;
+        let herald = Herald::of(config, problem.clone());
+        let ancestry = Ancestry::new(herald.clone(), islands, recorder.pace());
         let unfilmed = (0..islands).map(|_| None).collect();
         let reigns_since = vec![0; islands as usize];
-        let archipelago = config.archipelago();
-        let sources = (0..islands).map(|island| archipelago.in_neighbours(island)).collect();
+        let graph = config.archipelago().graph();
+        let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
+        let among = if config.exchange == ExchangeMode::Async { "some of " } else { "" };
         let has_shown = false;
-        Ok(Self { problem, herald, recorder, unfilmed, reigns_since, ancestry, sources, has_shown })
+        Ok(Self {
+            problem,
+            herald,
+            recorder,
+            unfilmed,
+            reigns_since,
+            ancestry,
+            sources,
+            among,
+            has_shown,
+        })
+    }
+
+    /// The problem that is solved.
+    pub fn problem(&self) -> &P {
+        &self.problem
     }
 
     /// What to give to a viewer to watch live.
@@ -87,14 +102,15 @@ impl Cinema {
     ///
     /// # Errors
     /// If it cannot be recorded.
-    pub fn show(&mut self, sighting: &Sighting) -> Result<(), Failure> {
+    pub fn show(&mut self, sighting: &Sighting<P::Gene>) -> Result<(), Failure> {
         let Sighting { report, champion, births } = sighting;
         let (island, generation) = (report.island, report.generation);
         if report.immigrants > 0 {
             let sources: Vec<String> =
                 self.sources[island as usize].iter().map(u32::to_string).collect();
             let news = format!(
-                "migration {} → {island}: {} immigrants",
+                "migration {}{} → {island}: {} immigrants",
+                self.among,
                 sources.join(", "),
                 report.immigrants
             );
@@ -126,7 +142,7 @@ impl Cinema {
         &mut self,
         island: u32,
         generation: u32,
-        champion: Option<&Champion<Gene>>,
+        champion: Option<&Champion<P::Gene>>,
     ) -> Result<(), Failure> {
         let since = &mut self.reigns_since[island as usize];
         let mood = match champion {
@@ -174,15 +190,13 @@ impl Cinema {
         Ok(())
     }
 
-    fn news(&self, island: u32, champion: &Champion<Gene>) -> String {
+    fn news(&self, island: u32, champion: &Champion<P::Gene>) -> String {
         let individual = &champion.individual;
         let score = result::show(&self.problem, champion);
-        let links = self.problem.express(&individual.genome).map_or_else(
-            |_| String::new(),
-            |creature| format!(", {} links", creature.morphology.links.len()),
-        );
+        let remark = self.problem.remark(&individual.genome);
+        let remark = remark.map_or_else(String::new, |remark| format!(", {remark}"));
         let origin = self.herald.origin(individual.id, individual.parents, island);
-        format!("island {island}: new champion, {score}{links}, {origin}")
+        format!("island {island}: new champion, {score}{remark}, {origin}")
     }
 
     /// Simulates an island's newest champion again, if that was not done. It must get the fitness that it was
@@ -190,10 +204,10 @@ impl Cinema {
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
         let score = pedigree::standing(&self.problem, &champion);
+        let short = self.problem.short(champion.individual.fitness);
         let Champion { generation, individual, .. } = champion;
-        let Some((evaluation, trajectory)) = self.simulate(&individual.genome) else {
-            return Ok(());
-        };
+        let Some(shot) = self.problem.shoot(&individual.genome) else { return Ok(()) };
+        let Shot { morphology, controller, evaluation, trajectory } = shot;
         if evaluation.fitness != individual.fitness {
             let news = format!(
                 "WARNING: the champion of island {island} was reported with {:?}, but gets {:?} here: \
@@ -203,66 +217,73 @@ impl Cinema {
             say(&news);
             self.recorder.event(Some(island), generation, &news)?;
         }
-        let Ok(creature) = self.problem.express(&individual.genome) else { return Ok(()) };
         let origin = self.herald.origin(individual.id, individual.parents, island);
         Ok(self.recorder.champion(&Clip {
             lane: island,
             hue: island,
             generation,
             label: format!("gen {generation} · {score} · {origin}"),
-            short_label: format!("{island} · {score}"),
-            morphology: creature.morphology,
-            controller: creature.controller,
+            short_label: format!("{island} · {short}"),
+            morphology,
+            controller,
             trajectory,
         })?)
     }
-
-    /// A champion whose body cannot be built has no film.
-    fn simulate(&self, genome: &[Gene]) -> Option<(Evaluation, Trajectory)> {
-        let filmed = catch_unwind(AssertUnwindSafe(|| self.problem.film(genome)));
-        let nothing = Trajectory {
-            shapes: Vec::new(),
-            times_s: Vec::new(),
-            poses: Vec::new(),
-            scoring_from_s: 0.0,
-            ground: Ground::Plane,
-        };
-        match filmed {
-            Ok(film) => film.ok(),
-            // The island survived it, too: it is an outcome like others.
-            Err(_) => Some((Evaluation::failed(Outcome::Panicked), nothing)),
-        }
-    }
 }
 
-fn run_card(config: &Config, clip_every: Option<u32>) -> RunCard {
-    let archipelago = config.archipelago();
-    let edges = (0..config.islands).flat_map(|island| {
-        archipelago.out_neighbours(island).into_iter().map(move |to| (island, to))
-    });
-    let trial = config.problem().trial();
+fn run_card<P: Subject>(config: &Config, problem: &P, clip_every: Option<u32>) -> RunCard {
+    let graph = config.archipelago().graph();
+    let edges = (0..config.islands)
+        .flat_map(|island| graph.out_neighbours(island).iter().map(move |&to| (island, to)));
     let clip_every = clip_every.or(config.clip_every);
     RunCard {
         program: Program::Run,
         lanes: Lane::of_islands(config.islands),
-        unit: config.problem().unit().to_owned(),
-        description_markdown: description(config),
+        unit: problem.unit().to_owned(),
+        description_markdown: description(config, problem),
         topology_edges: edges.collect(),
+        has_stage: P::HAS_BODIES,
         has_family: true,
-        pace: Pace::for_run(config.generations, clip_every, trial.settle_s + trial.scored_s),
-        ground: trial.ground,
+        pace: Pace::for_run(config.generations, clip_every, problem.clip_s()),
+        ground: problem.ground(),
     }
 }
 
 /// What decides the run, but neither when it was launched nor how it was run: films of equal runs are equal.
-fn description(config: &Config) -> String {
-    let Config { islands, population, generations, task, profile, .. } = config;
+fn description<P: Subject>(config: &Config, problem: &P) -> String {
+    let Config { islands, population, generations, .. } = config;
+    let legend = match P::HAS_BODIES {
+        true => {
+            "On every champion, pins through its driven joints are light while the motor turns one way and dark \
+             while it turns the other; white discs are where it touches the ground.\n\n"
+        }
+        false => "",
+    };
     format!(
-        "# {islands} islands × {population} creatures, {generations} generations\n\n\
-         Task **{task}**, profile **{profile}**, seed **{}**\n\n\
-         On every champion, pins through its driven joints are light while the motor turns one way and dark \
-         while it turns the other; white discs are where it touches the ground.\n\n```toml\n{}```\n",
+        "# {islands} islands × {population} {}, {generations} generations\n\n{}, seed **{}**\n\n{legend}\
+         ```toml\n{}```\n",
+        P::INHABITANTS,
+        problem.title(),
         config.seed.unwrap_or_default(),
         Config { launch: None, threads: None, ..config.clone() }.to_toml()
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::archipelago::Topology;
+
+    #[test]
+    fn the_card_of_a_run_has_every_edge_of_its_topology() {
+        for topology in Topology::ALL {
+            let config = Config { islands: 6, seed: Some(7), topology, ..Config::default() };
+            let (edges, graph) = (
+                run_card(&config, &config.locomotion(), None).topology_edges,
+                topology.graph(6, 7),
+            );
+            assert_eq!(edges.len(), graph.edges(), "{topology}");
+            assert!(edges.iter().all(|(from, to)| graph.out_neighbours(*from).contains(to)));
+        }
+    }
 }

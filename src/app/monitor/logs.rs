@@ -2,28 +2,28 @@
 
 use super::super::console::say;
 use crate::archipelago::{Births, Champion, Report};
-use crate::creature::Gene;
+use crate::evolution::Gene;
 use crate::store::{Entry, RunDir, StoreError, Tail};
 use std::path::PathBuf;
 
 /// A generation of an island.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sighting {
+pub struct Sighting<G> {
     /// What it was like.
     pub report: Report,
     /// The champion, if it is a new one.
-    pub champion: Option<Champion<Gene>>,
+    pub champion: Option<Champion<G>>,
     /// Who was born in it; nobody if that was not written down.
     pub births: Option<Births>,
 }
 
 /// The logs of all islands.
 #[derive(Debug)]
-pub struct Logs {
-    islands: Vec<Island>,
+pub struct Logs<G> {
+    islands: Vec<Island<G>>,
 }
 
-impl Logs {
+impl<G: Gene> Logs<G> {
     /// The logs of a run of so many islands, from their beginning.
     pub fn of(dir: &RunDir, islands: u32) -> Self {
         Self { islands: (0..islands).map(|index| Island::of(dir, index)).collect() }
@@ -31,9 +31,10 @@ impl Logs {
 
     /// The next generation of each island that has one to show and is not ahead of another one that has; none
     /// if nothing is there by now. So the islands' films grow evenly, and those that are behind go first.
-    pub fn next_round(&mut self) -> Vec<Sighting> {
+    pub fn next_round(&mut self) -> Vec<Sighting<G>> {
         self.islands.iter_mut().for_each(Island::look);
-        let generation = |island: &Island| island.next.as_ref().map(|next| next.report.generation);
+        let generation =
+            |island: &Island<G>| island.next.as_ref().map(|next| next.report.generation);
         let first = self.islands.iter().filter_map(generation).min();
         let those = self.islands.iter_mut().filter(|island| generation(island) == first);
         those.filter_map(Island::take).collect()
@@ -48,23 +49,23 @@ impl Logs {
 
 /// The logs of an island.
 #[derive(Debug)]
-struct Island {
+struct Island<G> {
     index: u32,
     /// Where its reports lie.
     path: PathBuf,
     reports: Tail<Entry>,
-    champions: Tail<Champion<Gene>>,
+    champions: Tail<Champion<G>>,
     lineages: Tail<Births>,
     /// A champion whose generation was not reported yet.
-    coming: Option<Champion<Gene>>,
+    coming: Option<Champion<G>>,
     /// What was read and not taken.
-    next: Option<Sighting>,
+    next: Option<Sighting<G>>,
     /// The generations that were taken.
     generation: u32,
     is_damaged: bool,
 }
 
-impl Island {
+impl<G: Gene> Island<G> {
     fn of(dir: &RunDir, index: u32) -> Self {
         Self {
             index,
@@ -96,7 +97,7 @@ impl Island {
         }
     }
 
-    fn read(&mut self) -> Result<Option<Sighting>, StoreError> {
+    fn read(&mut self) -> Result<Option<Sighting<G>>, StoreError> {
         let Some(Entry { report, .. }) = self.reports.next_record()? else { return Ok(None) };
         if (report.island, report.generation) != (self.index, self.generation) {
             let reason = format!(
@@ -120,7 +121,7 @@ impl Island {
         }
     }
 
-    fn take(&mut self) -> Option<Sighting> {
+    fn take(&mut self) -> Option<Sighting<G>> {
         let next = self.next.take()?;
         self.generation += 1;
         Some(next)

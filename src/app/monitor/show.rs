@@ -1,10 +1,12 @@
 //! When what the islands of a run wrote down is shown, and when that is over.
 
 use super::super::Failure;
+use super::super::catalogue::Visitor;
 use super::super::cli::{MonitorArgs, Watching};
 use super::super::config::Config;
 use super::super::console::{Stopwatch, print, say};
 use super::super::kinship::{Ear, SERVING, tell};
+use super::super::subject::Subject;
 use super::super::{result, viewer};
 use super::cinema::Cinema;
 use super::logs::Logs;
@@ -36,34 +38,60 @@ pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
     let _ = rustix::process::nice(NICENESS);
     let dir = RunDir::at(&args.dir);
     let config = Config::of_run(&dir)?;
-    let launched = args.parent.is_some();
-    let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
-    // Nobody has the time to attach to a run that is over.
-    let is_watched = args.view.view != Watching::Off && (launched || dir.is_under_way()?);
-    let live = is_watched.then(|| Live {
-        address: args.view.view_address,
-        port: args.view.view_port.unwrap_or(Live::default().port),
-        ..Live::default()
-    });
-    let folder = if launched { dir.partial() } else { dir.path().to_owned() };
-    let cinema = Cinema::open(&folder, &dir.recording(), live, &config, args.clip_every)?;
-    if let (Some(wanted), Some(port)) = (args.view.view_port, cinema.port())
-        && wanted != port
-    {
-        say(&format!("warning: port {wanted} is taken; the live view is served on port {port}"));
+    config.visit(Projection { args, dir, config: &config, ear })
+}
+
+/// A run that is to be shown.
+struct Projection<'a> {
+    args: &'a MonitorArgs,
+    dir: RunDir,
+    config: &'a Config,
+    ear: Ear,
+}
+
+impl Visitor for Projection<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        self.show(problem)
     }
-    match cinema.address() {
-        Some(address) if launched => tell(&format!("{SERVING}{address}")),
-        Some(address) => {
-            print(&format!("watch it live:  rerun {address}"));
-            if args.view.view == Watching::Spawn {
-                viewer::open(address);
-            }
+}
+
+impl Projection<'_> {
+    fn show<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let Self { args, dir, config, ear } = self;
+        let launched = args.parent.is_some();
+        let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
+        // Nobody has the time to attach to a run that is over.
+        let is_watched = args.view.view != Watching::Off && (launched || dir.is_under_way()?);
+        let live = is_watched.then(|| Live {
+            address: args.view.view_address,
+            port: args.view.view_port.unwrap_or(Live::default().port),
+            ..Live::default()
+        });
+        let folder = if launched { dir.partial() } else { dir.path().to_owned() };
+        let cinema =
+            Cinema::open(&folder, &dir.recording(), live, config, problem, args.clip_every)?;
+        if let (Some(wanted), Some(port)) = (args.view.view_port, cinema.port())
+            && wanted != port
+        {
+            say(&format!(
+                "warning: port {wanted} is taken; the live view is served on port {port}"
+            ));
         }
-        None => {}
+        match cinema.address() {
+            Some(address) if launched => tell(&format!("{SERVING}{address}")),
+            Some(address) => {
+                print(&format!("watch it live:  rerun {address}"));
+                if args.view.view == Watching::Spawn {
+                    viewer::open(address);
+                }
+            }
+            None => {}
+        }
+        let logs = Logs::of(&dir, config.islands);
+        Show { dir, config: config.clone(), launched, ear, logs, cinema }.run()
     }
-    let logs = Logs::of(&dir, config.islands);
-    Show { dir, config, launched, ear, logs, cinema }.run()
 }
 
 /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while
@@ -88,16 +116,16 @@ fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, F
 }
 
 /// A run that is being shown.
-struct Show {
+struct Show<P: Subject> {
     dir: RunDir,
     config: Config,
     launched: bool,
     ear: Ear,
-    logs: Logs,
-    cinema: Cinema,
+    logs: Logs<P::Gene>,
+    cinema: Cinema<P>,
 }
 
-impl Show {
+impl<P: Subject> Show<P> {
     fn run(mut self) -> Result<(), Failure> {
         let mut last = false;
         loop {
@@ -159,7 +187,7 @@ impl Show {
         if !cinema.has_shown() {
             return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
         }
-        let is_over = result::finished(&dir, &config).is_some();
+        let is_over = result::finished(&dir, &config, cinema.problem()).is_some();
         let short = logs.first_short_of(config.generations).filter(|_| is_over);
         if let Some((island, generations)) = short {
             let news = format!(

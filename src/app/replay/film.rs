@@ -2,11 +2,11 @@
 
 use super::super::Failure;
 use super::super::cli::ReplayArgs;
-use super::super::genomes::{links_max, reading};
+use super::super::genomes::{links_max, reading, robustness};
 use crate::creature::{Creature, Reading, Scales};
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::Locomotion;
-use crate::simulation::{self, Trajectory, Trial};
+use crate::simulation::{Trajectory, Trial};
 use crate::view::{Draft, Recorder, RunCard};
 use std::path::Path;
 
@@ -32,7 +32,7 @@ impl Studio {
     /// A studio for a problem, but for what the user wants otherwise.
     ///
     /// # Errors
-    /// If more links are asked for than may be, or scales that the profile has not.
+    /// If more links or trials are asked for than may be, or scales that the profile has not.
     pub fn new(args: &ReplayArgs, problem: Locomotion) -> Result<Self, Failure> {
         let usual = problem.reading();
         let profile = args.profile.unwrap_or(usual.profile);
@@ -43,12 +43,17 @@ impl Studio {
             scales => scales,
         };
         let Reading { profile, scales } = reading(profile, scales)?;
+        let (trials, by) = (problem.robustness.trials, problem.robustness.by);
         let problem = Locomotion {
             task: args.task.unwrap_or(problem.task),
             profile,
             scales,
             engine: args.engine.unwrap_or(problem.engine),
             links_max: links_max(args.max_links.unwrap_or(problem.links_max))?,
+            robustness: robustness(
+                args.robustness.unwrap_or(trials),
+                args.robust_by.unwrap_or(by),
+            )?,
             terrain: args.terrain.read()?.or(problem.terrain),
             ..problem
         };
@@ -64,9 +69,7 @@ impl Studio {
 
     /// Films a creature.
     pub fn shoot(&self, creature: Creature) -> Shot {
-        let (result, trajectory) = simulation::film(&creature, &self.trial, self.problem.engine);
-        let score = |measured| Evaluation::scored(self.problem.task.score(&measured));
-        let evaluation = result.map_or_else(Evaluation::failed, score);
+        let (evaluation, trajectory) = self.problem.film_trial(&creature, &self.trial);
         Shot { creature, evaluation, trajectory }
     }
 

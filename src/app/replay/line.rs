@@ -1,14 +1,17 @@
 //! The creatures of a run, one after another.
 
+use super::super::catalogue::Kind;
 use super::super::cli::ReplayArgs;
 use super::super::config::Config;
 use super::super::console::{print, say};
 use super::super::pedigree::{self, Herald};
+use super::super::subject::Subject;
 use super::super::{Failure, seeds};
 use super::film::{Studio, recorder};
-use crate::archipelago::{Births, Champion, Lineage};
+use crate::archipelago::{Birth, Births, Champion, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual, Problem};
+use crate::problems::Locomotion;
 use crate::store::{RecordLog, RunDir};
 use crate::view::{Clip, Family, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};
@@ -21,7 +24,9 @@ use std::path::{Path, PathBuf};
 pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
     let dir = RunDir::at(dir);
     let config = Config::of_run(&dir)?;
-    let studio = Studio::new(args, config.problem())?;
+    require_creatures(&config)?;
+    let problem = config.locomotion();
+    let studio = Studio::new(args, problem)?;
     let most = args.clips as usize;
     let champions = champions(&dir, &config)?;
     let best = champions.last().cloned();
@@ -32,18 +37,27 @@ pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
         false => ("champions.rrd", pedigree::selection(&champions, most)),
     };
     let out = args.out.clone().unwrap_or_else(|| dir.path().join(name));
-    let herald = Herald::of(&config);
+    let herald = Herald::of(&config, problem);
     let family = herald.family(&lineage, best.id);
-    let is_as_scored = args.seconds.is_none() && studio.problem == config.problem();
+    let is_as_scored = args.seconds.is_none() && studio.problem == problem;
     Reel { studio, line, herald, family, is_as_scored }.record(args, &dir, &out)?;
     Ok(out)
+}
+
+fn require_creatures(config: &Config) -> Result<(), Failure> {
+    match config.problem {
+        Kind::Creatures => Ok(()),
+        other => Err(Failure::usage(format!(
+            "replay shows creatures, and this is a run of {other}, whose genomes have no bodies"
+        ))),
+    }
 }
 
 /// The creatures of a film.
 struct Reel {
     studio: Studio,
     line: Vec<Individual<Gene>>,
-    herald: Herald,
+    herald: Herald<Locomotion>,
     family: Family,
     /// Whether they are tried as they were in the run.
     is_as_scored: bool,
@@ -68,7 +82,7 @@ impl Reel {
             let origin = self.herald.origin(one.id, one.parents, island);
             let name = format!("generation {generation}, island {island}, {origin}");
             print(&self.studio.row(&shot, &name));
-            let score = pedigree::short(&self.studio.problem, shot.evaluation.fitness);
+            let score = self.studio.problem.short(shot.evaluation.fitness);
             recorder.score(slot, generation, shot.evaluation.fitness)?;
             recorder.play(
                 &Clip {
@@ -105,6 +119,7 @@ impl Reel {
                 dir.path().display()
             ),
             topology_edges: Vec::new(),
+            has_stage: true,
             has_family: !self.family.line.is_empty(),
             pace: Pace { slot_s: self.studio.clip_s(), generations_per_slot: 1 },
             ground: self.studio.trial.ground,
@@ -154,7 +169,7 @@ fn ancestors(
         ))
     };
     let line = pedigree::selection(&lineage.line(best.id), most);
-    let problem = seeds::founded(dir, config)?;
+    let problem = seeds::founded(dir, config, config.locomotion())?;
     let genomes = lineage.genomes(&line, &problem, &config.archipelago());
     let genomes = genomes.map_err(|gap| lost(gap.to_string()))?;
     if genomes.get(&best.id) != Some(&best.genome) {
@@ -163,7 +178,9 @@ fn ancestors(
     let one = |&id: &Id| {
         let birth = lineage.birth(id)?;
         let genome = genomes.get(&id)?.clone();
-        Some(Individual { id, parents: birth.parents, genome, fitness: birth.fitness })
+        let Birth { parents, fitness } = birth;
+        // Their age matters to nobody any more.
+        Some(Individual { id, parents, origin: 0, genome, fitness })
     };
     Ok(line.iter().filter_map(one).collect())
 }

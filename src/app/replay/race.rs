@@ -1,9 +1,10 @@
 //! Creatures that race.
 
+use super::super::Failure;
 use super::super::cli::ReplayArgs;
 use super::super::console::print;
 use super::super::genomes::Specimen;
-use super::super::{Failure, pedigree};
+use super::super::subject::Subject;
 use super::film::{Studio, recorder};
 use crate::evolution::Fitness;
 use crate::problems::Locomotion;
@@ -33,6 +34,7 @@ pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
         unit: "m".to_owned(),
         description_markdown: description(&studio, paths, scores),
         topology_edges: Vec::new(),
+        has_stage: true,
         has_family: false,
         pace: Pace::for_run(0, None, studio.clip_s()),
         ground: studio.trial.ground,
@@ -40,7 +42,7 @@ pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
     let mut recorder = recorder(&out, card)?;
     for ((lane, path), shot) in (0..).zip(paths).zip(shots) {
         print(&studio.row(&shot, &path.display().to_string()));
-        let score = pedigree::short(&studio.problem, shot.evaluation.fitness);
+        let score = studio.problem.short(shot.evaluation.fitness);
         let label = format!("{} · {score}", name(path));
         recorder.play(
             &Clip {
@@ -69,9 +71,10 @@ fn description(
     paths: &[PathBuf],
     scores: impl Iterator<Item = Fitness>,
 ) -> String {
-    let rows = paths.iter().zip(scores).map(|(path, score)| {
-        format!("| {} | {} |\n", path.display(), pedigree::short(&studio.problem, score))
-    });
+    let rows = paths
+        .iter()
+        .zip(scores)
+        .map(|(path, score)| format!("| {} | {} |\n", path.display(), studio.problem.short(score)));
     let Locomotion { task, profile, .. } = studio.problem;
     format!(
         "# A replay\n\nTask **{task}**, profile **{profile}**, {} s\n\n| creature | score |\n|---|---|\n{}",

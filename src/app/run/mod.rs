@@ -14,13 +14,15 @@ mod resume;
 mod supervisor;
 
 use super::Failure;
+use super::catalogue::{Kind, Visitor};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
-use super::console::print;
+use super::console::{print, say};
 use super::kinship::Ear;
 use super::result::{self, Summary};
+use super::subject::Subject;
 use super::{seeds, terrains};
-use crate::creature::Gene;
+use crate::archipelago::ExchangeMode;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
 use rand::TryRng;
@@ -35,24 +37,43 @@ use supervisor::Supervisor;
 /// failed; with 130 if it was interrupted.
 pub fn run(args: &RunArgs) -> Result<(), Failure> {
     keep_private();
-    let (config, founders) = resolve(args)?;
-    let ear = Ear::to_signals()?;
-    let dir = run_dir(args.out.as_deref(), &config);
-    require_text(&dir)?;
-    let domain = config.domain()?;
-    let harbour = Harbour::create(&domain, &config.archipelago())?;
-    let claim = dir.create().map_err(|error| {
-        let go_on = match dir.config().exists() {
-            true => format!(", or go on with it: {}", resume::command(&dir)),
-            false => String::new(),
-        };
-        Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
-    })?;
-    seeds::keep(&dir, &founders)?;
-    terrains::keep(&dir, &config)?;
-    write_config(&dir, &config)?;
-    claim.make_folders(config.islands)?;
-    Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
+    let config = resolve(args)?;
+    config.visit(Begin { args, config: config.clone() })
+}
+
+/// A run that is to be made.
+struct Begin<'a> {
+    args: &'a RunArgs,
+    config: Config,
+}
+
+impl Visitor for Begin<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let Self { args, mut config } = self;
+        let dropped = &args.changes.drop_columns;
+        let read_from = args.config.as_deref();
+        let founders = seeds::find(&problem, &mut config, &args.seed_genomes, dropped, read_from)?;
+        config.launch = Some(new_launch()?);
+        let ear = Ear::to_signals()?;
+        let dir = run_dir(args.out.as_deref(), &config);
+        require_text(&dir)?;
+        let domain = config.domain()?;
+        let harbour = Harbour::create(&domain, &config.archipelago())?;
+        let claim = dir.create().map_err(|error| {
+            let go_on = match dir.config().exists() {
+                true => format!(", or go on with it: {}", resume::command(&dir)),
+                false => String::new(),
+            };
+            Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
+        })?;
+        seeds::keep(&problem, &dir, &founders)?;
+        terrains::keep(&dir, &config)?;
+        write_config(&dir, &config)?;
+        claim.make_folders(config.islands)?;
+        Launch { problem, config, dir, claim, domain, harbour, ear }.go(&args.output)
+    }
 }
 
 /// Goes on with a run, to the result that it would have had undisturbed.
@@ -65,42 +86,70 @@ pub fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     require_text(&dir)?;
     let ear = Ear::to_signals()?;
     let claim = resume::claim(&dir)?;
-    let mut config = resume::config(&dir, &args.settings)?;
-    if let Some(summary) = result::finished(&dir, &config) {
-        // Its launcher may have been killed over its last words.
-        Domain::remove_abandoned();
-        present(&summary, &args.output);
-        return Ok(());
+    let config = resume::config(&dir, &args.settings)?;
+    config.visit(GoOn { args, config: config.clone(), dir, claim, ear })
+}
+
+/// A run that is to go on.
+struct GoOn<'a> {
+    args: &'a ResumeArgs,
+    config: Config,
+    dir: RunDir,
+    claim: Claim,
+    ear: Ear,
+}
+
+impl Visitor for GoOn<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
+        let Self { args, mut config, dir, claim, ear } = self;
+        resume::require_checkpoints::<P::Gene>(&dir, &config)?;
+        if let Some(summary) = result::finished(&dir, &config, &problem) {
+            // Its launcher may have been killed over its last words.
+            Domain::remove_abandoned();
+            present(&summary, &args.output);
+            return Ok(());
+        }
+        let problem = seeds::founded(&dir, &config, problem)?.problem;
+        config.launch = Some(new_launch()?);
+        let domain = config.domain()?;
+        let harbour = Harbour::create(&domain, &config.archipelago())?;
+        claim.make_folders(config.islands)?;
+        write_config(&dir, &config)?;
+        Launch { problem, config, dir, claim, domain, harbour, ear }.go(&args.output)
     }
-    seeds::founded(&dir, &config)?;
-    config.launch = Some(new_launch()?);
-    let domain = config.domain()?;
-    let harbour = Harbour::create(&domain, &config.archipelago())?;
-    claim.make_folders(config.islands)?;
-    write_config(&dir, &config)?;
-    Launch { config, dir, claim, domain, harbour, ear }.go(&args.output)
 }
 
 /// Everything that a run needs before its first process.
-struct Launch {
+struct Launch<P: Subject> {
+    problem: P,
     config: Config,
     dir: RunDir,
     claim: Claim,
     domain: Domain,
-    harbour: Harbour<Gene>,
+    harbour: Harbour<P::Gene>,
     ear: Ear,
 }
 
-impl Launch {
+impl<P: Subject> Launch<P> {
     fn go(self, output: &OutputArgs) -> Result<(), Failure> {
-        let Self { config, dir, claim, domain, harbour, ear } = self;
-        let supervised = Supervisor::launch(&config, &dir, &domain, &harbour, ear, output)
-            .and_then(Supervisor::see_to_the_end);
+        let Self { problem, config, dir, claim, domain, harbour, ear } = self;
+        if config.exchange == ExchangeMode::Async {
+            claim.make_arrivals()?;
+            say(
+                "note: islands do not wait for each other: the seed alone does not fix the result; what each takes in \
+                 is recorded, so that it can be evolved again to the same digest",
+            );
+        }
+        let supervised =
+            Supervisor::launch(&problem, &config, &dir, &domain, &harbour, ear, output)
+                .and_then(Supervisor::see_to_the_end);
         if supervised.is_err() {
             // What there is so far can be plotted; if not, there is a worse failure to tell of.
             let _ = result::write_metrics(&dir, &config);
         }
-        let summary = supervised.and_then(|()| result::gather(&dir, &config));
+        let summary = supervised.and_then(|()| result::gather(&dir, &config, &problem));
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
         let closed = harbour.close();
         drop(claim);
@@ -129,25 +178,25 @@ fn keep_private() {
     rustix::process::umask(Mode::RWXG | Mode::RWXO);
 }
 
-/// The complete configuration: flags over a file over defaults, with a seed; and the genomes to begin with.
-fn resolve(args: &RunArgs) -> Result<(Config, Vec<Vec<Gene>>), Failure> {
+/// What was asked for: flags over a file over the defaults of the problem, with a seed.
+fn resolve(args: &RunArgs) -> Result<Config, Failure> {
+    let wish = args.settings.problem.wish();
     let mut config = match &args.config {
-        Some(path) => args.settings.over(Config::read(path)?),
-        None => args.settings.over(Config::default()),
+        Some(path) => args.settings.over(Config::read_for(path, wish)?),
+        None => args.settings.over(Config::default_for(wish)),
     };
     if !args.changes.scales.is_empty() {
         config.scales = args.changes.scales.iter().cloned().collect();
     }
     terrains::find(&mut config, &args.terrain, args.config.as_deref())?;
     config.check()?;
-    let dropped = &args.changes.drop_columns;
-    let founders = seeds::find(&mut config, &args.seed_genomes, dropped, args.config.as_deref())?;
+    config = config.settled();
+    config.check()?;
     if config.seed.is_none() {
         // Half of it is entropy enough, and a number that people can copy.
         config.seed = Some(entropy()? >> 32);
     }
-    config.launch = Some(new_launch()?);
-    Ok((config, founders))
+    Ok(config)
 }
 
 fn new_launch() -> Result<config::Launch, Failure> {
@@ -160,7 +209,11 @@ fn run_dir(out: Option<&Path>, config: &Config) -> RunDir {
     if let Some(out) = out {
         return RunDir::at(out);
     }
-    let name = format!("{}-seed{}", config.task, config.seed.unwrap_or_default());
+    let what = match config.problem {
+        Kind::Creatures => config.task.to_string(),
+        other => other.to_string(),
+    };
+    let name = format!("{what}-seed{}", config.seed.unwrap_or_default());
     let free = |path: &PathBuf| !path.exists();
     let first = Path::new("runs").join(&name);
     let next = (2..).map(|i| Path::new("runs").join(format!("{name}-{i}")));
@@ -193,8 +246,7 @@ fn present(summary: &Summary, output: &OutputArgs) {
 fn show(summary: &Summary) {
     print(&format!(
         "best     {}, island {}\nfound in {} evaluations, {:.1} a second; {} failed\n\
-         reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}\n\
-         film     islands replay {} --task {} --profile {}{} --out champion.rrd",
+         reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}",
         summary.best,
         summary.best_island,
         summary.evaluations,
@@ -203,11 +255,15 @@ fn show(summary: &Summary) {
         summary.reused,
         summary.digest,
         summary.run_dir.display(),
-        summary.best_genome.display(),
-        summary.task,
-        summary.profile,
-        terrain_flag(&summary.run_dir),
     ));
+    let genome = summary.best_genome.display();
+    match (&summary.task, &summary.profile) {
+        (Some(task), Some(profile)) => print(&format!(
+            "film     islands replay {genome} --task {task} --profile {profile}{} --out champion.rrd",
+            terrain_flag(&summary.run_dir)
+        )),
+        _ => print(&format!("genome   {genome}")),
+    }
     if let Some(recording) = &summary.recording {
         print(&format!("view     rerun {}", recording.display()));
     }

@@ -4,7 +4,8 @@ use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::Stopwatch;
 use super::super::settings::SettingArgs;
-use crate::creature::Gene;
+use crate::archipelago::ExchangeMode;
+use crate::evolution::Gene;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
 use std::thread::sleep;
 use std::time::Duration;
@@ -43,6 +44,7 @@ pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
 pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
     let own = Config::of_run(dir)?;
     require_version(own.version())?;
+    wish.problem.require_same(&own)?;
     let config = wish.over(own.clone());
     config.check()?;
     let changes = differences(&own.settings(), &config.settings());
@@ -52,10 +54,23 @@ pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
             changes.join(", ")
         )));
     }
-    for checkpoint in newest_checkpoints(dir, &config)? {
-        require_same(&checkpoint, &config)?;
+    if config.exchange == ExchangeMode::Async && config.generations < own.generations {
+        return Err(Failure::usage(format!(
+            "a run in which islands do not wait for each other cannot be made shorter: an island may have taken in what \
+             another sent after generation {}; leave out --generations",
+            config.generations
+        )));
     }
     Ok(config)
+}
+
+/// Makes sure that the newest states that were saved are of the configuration that the run goes on with.
+///
+/// # Errors
+/// If one is not, or of another version.
+pub fn require_checkpoints<G: Gene>(dir: &RunDir, config: &Config) -> Result<(), Failure> {
+    let checkpoints = newest_checkpoints::<G>(dir, config)?;
+    checkpoints.iter().try_for_each(|checkpoint| require_same(checkpoint, config))
 }
 
 /// The failure of a run that was under way, and how to go on. One that was interrupted says so itself.
@@ -109,7 +124,7 @@ fn require_version(version: &str) -> Result<(), Failure> {
 }
 
 /// What a checkpoint knows of the run, against what the run's configuration says.
-fn require_same(checkpoint: &Checkpoint<Gene>, config: &Config) -> Result<(), Failure> {
+fn require_same<G>(checkpoint: &Checkpoint<G>, config: &Config) -> Result<(), Failure> {
     let changes = differences(&checkpoint.settings, &config.settings());
     if !changes.is_empty() {
         return Err(Failure::usage(format!(
@@ -128,12 +143,15 @@ fn require_same(checkpoint: &Checkpoint<Gene>, config: &Config) -> Result<(), Fa
 }
 
 /// The newest whole checkpoint of each island that has one. What is damaged the island itself deals with.
-fn newest_checkpoints(dir: &RunDir, config: &Config) -> Result<Vec<Checkpoint<Gene>>, Failure> {
+fn newest_checkpoints<G: Gene>(
+    dir: &RunDir,
+    config: &Config,
+) -> Result<Vec<Checkpoint<G>>, Failure> {
     let mut newest = Vec::new();
     for island in 0..config.islands {
         // An island that never got so far has no folder.
         let checkpoints = Checkpoints::of(dir, island);
-        let Ok(checkpoints) = checkpoints.load::<Gene>() else { continue };
+        let Ok(checkpoints) = checkpoints.load::<G>() else { continue };
         for (_, checkpoint) in checkpoints {
             match checkpoint {
                 Ok(checkpoint) => {

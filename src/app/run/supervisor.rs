@@ -6,13 +6,12 @@ use super::super::config::Config;
 use super::super::console::Stopwatch;
 use super::super::kinship::{Ear, FINISHED, READY, SERVING};
 use super::super::result::Podium;
+use super::super::subject::Subject;
 use super::chronicle::Chronicle;
 use super::crew::Crew;
 use super::kin::{Role, Word};
 use super::mortality::DEATHS_MAX;
 use super::resume::{self, require_folder};
-use crate::creature::Gene;
-use crate::problems::Locomotion;
 use crate::store::RunDir;
 use crate::transport::{Domain, Harbour, Lookout};
 use std::process::ExitStatus;
@@ -28,13 +27,13 @@ const SOON: Duration = Duration::from_secs(1);
 const LAST_WORDS: Duration = Duration::from_secs(5);
 
 /// Who watches over a run.
-pub struct Supervisor<'a> {
+pub struct Supervisor<'a, P: Subject> {
     dir: &'a RunDir,
-    harbour: &'a Harbour<Gene>,
-    problem: Locomotion,
+    harbour: &'a Harbour<P::Gene>,
+    problem: &'a P,
     ear: Ear,
     crew: Crew,
-    lookout: Lookout<Gene>,
+    lookout: Lookout<P::Gene>,
     podium: Podium,
     chronicle: Chronicle,
     watch: Stopwatch,
@@ -42,32 +41,33 @@ pub struct Supervisor<'a> {
     opens_viewer: bool,
 }
 
-impl<'a> Supervisor<'a> {
+impl<'a, P: Subject> Supervisor<'a, P> {
     /// Starts every process of a run.
     ///
     /// # Errors
     /// If one cannot be started, or the run's log cannot be written.
     pub fn launch(
+        problem: &'a P,
         config: &'a Config,
         dir: &'a RunDir,
         domain: &Domain,
-        harbour: &'a Harbour<Gene>,
+        harbour: &'a Harbour<P::Gene>,
         ear: Ear,
         output: &OutputArgs,
     ) -> Result<Self, Failure> {
         let mut supervisor = Self {
-            problem: config.problem(),
+            problem,
             ear,
             crew: Crew::new(dir.clone(), config.clone(), output.view),
             lookout: Lookout::open(domain, &config.archipelago())?,
-            podium: Podium::of(dir, config)?,
+            podium: Podium::of::<P::Gene>(dir, config)?,
             chronicle: Chronicle::open(dir, config, output.quiet)?,
             watch: Stopwatch::start(),
             opens_viewer: output.view.view == Watching::Spawn,
             dir,
             harbour,
         };
-        supervisor.chronicle.tell(&overture(config, dir));
+        supervisor.chronicle.tell(&overture(config, P::INHABITANTS, dir));
         for island in 0..config.islands {
             supervisor.crew.start(Role::Island(island))?;
         }
@@ -181,9 +181,9 @@ impl<'a> Supervisor<'a> {
         for sighting in self.lookout.receive() {
             let report = &sighting.report;
             self.crew.post(Role::Island(report.island)).generation = Some(report.generation);
-            self.chronicle.update(&self.problem, report, self.watch.seconds());
+            self.chronicle.update(self.problem, report, self.watch.seconds());
             if let Some(champion) = &sighting.champion {
-                self.podium.receive(self.dir, &self.problem, champion)?;
+                self.podium.receive(self.dir, self.problem, champion)?;
             }
         }
         Ok(())
@@ -249,7 +249,10 @@ impl<'a> Supervisor<'a> {
         self.crew.ask_to_stop(is_monitor);
         let is_quick = self.crew.await_end(is_monitor, SOON, || ear.heard_hurry());
         if !is_quick {
-            self.chronicle.tell("the monitor films the last champions …");
+            self.chronicle.tell(match P::HAS_BODIES {
+                true => "the monitor films the last champions …",
+                false => "the monitor records the last generations …",
+            });
         }
         if !is_quick && !self.crew.await_end(is_monitor, most, || ear.heard_hurry()) {
             self.chronicle.warn("the monitor was still filming and was stopped; the film has gaps");
@@ -269,10 +272,10 @@ impl<'a> Supervisor<'a> {
 }
 
 /// What a run begins with.
-fn overture(config: &Config, dir: &RunDir) -> String {
+fn overture(config: &Config, inhabitants: &str, dir: &RunDir) -> String {
     let Config { islands, population, generations, seed, .. } = config;
     format!(
-        "{islands} islands × {population} creatures evolve for {generations} generations, seed {}, in {}",
+        "{islands} islands × {population} {inhabitants} evolve for {generations} generations, seed {}, in {}",
         seed.unwrap_or_default(),
         dir.path().display()
     )

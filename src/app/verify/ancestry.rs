@@ -1,6 +1,7 @@
 //! Whether the champions are who their ancestors can have bred.
 
 use super::super::seeds;
+use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
@@ -10,7 +11,13 @@ use crate::store::RunDir;
 
 /// Breeds every champion again from its first ancestors on, which simulates nothing; `sound` says that nothing is
 /// wrong with the records.
-pub fn check(dir: &RunDir, terms: &Terms, records: &Records, sound: bool) -> Check {
+pub fn check<P: Subject>(
+    dir: &RunDir,
+    problem: &P,
+    terms: &Terms,
+    records: &Records<P::Gene>,
+    sound: bool,
+) -> Check {
     let logs = || (0..).zip(&records.champions);
     let champions = || {
         let with = |(island, log)| std::iter::repeat(island).zip(log);
@@ -25,7 +32,7 @@ pub fn check(dir: &RunDir, terms: &Terms, records: &Records, sound: bool) -> Che
         check.note("not checked: another version may breed otherwise");
         return check;
     }
-    let Ok(problem) = seeds::founded(dir, terms.config) else {
+    let Ok(problem) = seeds::founded(dir, terms.config, problem.clone()) else {
         check.note("not checked: the genomes that the run began with are damaged");
         return check;
     };

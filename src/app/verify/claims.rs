@@ -1,12 +1,13 @@
 //! What the files of the whole run claim, compared with what its islands left.
 
 use super::super::result;
+use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
 use crate::archipelago::{Digest, Island};
-use crate::creature::Gene;
-use crate::formats::{genome_csv, metrics, urdf};
+use crate::evolution::Gene;
+use crate::formats::metrics;
 use crate::store::{RunDir, StoreError, file};
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
@@ -62,7 +63,7 @@ impl SummaryFile {
 }
 
 /// The row of a run that has not finished.
-pub fn none_yet(terms: &Terms, records: &Records) -> Check {
+pub fn none_yet<G: Gene>(terms: &Terms, records: &Records<G>) -> Check {
     let mut check = Check::of("digest");
     let generations = terms.config.generations;
     // An island without a state begins from the seed.
@@ -77,10 +78,11 @@ pub fn none_yet(terms: &Terms, records: &Records) -> Check {
 
 /// Checks the claims of a run that has finished; `sound` says that nothing is wrong with its records. The digest
 /// that its final populations have, if they are there, comes first.
-pub fn check(
+pub fn check<P: Subject>(
     dir: &RunDir,
+    problem: &P,
     terms: &Terms,
-    records: &Records,
+    records: &Records<P::Gene>,
     summary: &SummaryFile,
     sound: bool,
 ) -> (Option<String>, Vec<Check>) {
@@ -88,8 +90,8 @@ pub fn check(
     let digest = finals.map(|finals| Digest::of(finals).to_string());
     let checks = vec![
         check_digest(dir, digest.as_deref(), summary, records.states.len()),
-        check_summary(dir, terms, finals.filter(|_| sound), records, summary),
-        check_champion(dir, terms, records),
+        check_summary(dir, problem, terms, finals.filter(|_| sound), records, summary),
+        check_champion(dir, problem, terms, records),
         check_metrics(dir, terms, records, sound),
     ];
     (digest, checks)
@@ -110,11 +112,12 @@ fn check_digest(dir: &RunDir, found: Option<&str>, summary: &SummaryFile, states
     check
 }
 
-fn check_summary(
+fn check_summary<P: Subject>(
     dir: &RunDir,
+    problem: &P,
     terms: &Terms,
-    finals: Option<&[Island<Gene>]>,
-    records: &Records,
+    finals: Option<&[Island<P::Gene>]>,
+    records: &Records<P::Gene>,
     summary: &SummaryFile,
 ) -> Check {
     let mut check = Check::of("summary").checked("summary.json");
@@ -124,7 +127,8 @@ fn check_summary(
         (SummaryFile::Damaged(reason), _) => check.damaged(reason),
         (SummaryFile::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
         (SummaryFile::Whole(said), Some((finals, best))) => {
-            let right = result::summarise(dir, terms.config, finals, best, &records.reports);
+            let right =
+                result::summarise(dir, terms.config, problem, finals, best, &records.reports);
             let right = serde_json::to_value(right).expect("a summary is plain data");
             let claims = right.as_object().into_iter().flatten();
             for (key, value) in claims.filter(|(key, _)| !FREE.contains(&key.as_str())) {
@@ -141,9 +145,15 @@ fn check_summary(
     check
 }
 
-/// The files of the best creature must be those that a run writes for it.
-fn check_champion(dir: &RunDir, terms: &Terms, records: &Records) -> Check {
-    let mut check = Check::of("champion").checked("champion.csv, .urdf");
+/// The files of the best individual must be those that a run writes for it.
+fn check_champion<P: Subject>(
+    dir: &RunDir,
+    problem: &P,
+    terms: &Terms,
+    records: &Records<P::Gene>,
+) -> Check {
+    let files = if P::HAS_BODIES { "champion.csv, .urdf" } else { "champion.csv" };
+    let mut check = Check::of("champion").checked(files);
     let finals = records.finals(terms);
     let Some((_, champion)) = finals.and_then(|_| result::best(&records.champions)) else {
         check.note("not checked: a final population is missing or damaged");
@@ -151,22 +161,15 @@ fn check_champion(dir: &RunDir, terms: &Terms, records: &Records) -> Check {
     };
     let genome = &champion.individual.genome;
     let mut right = Vec::new();
-    genome_csv::write(genome, &mut right).expect("memory takes everything");
+    problem.write_genome(genome, &mut right).expect("memory takes everything");
     compare(&mut check, &dir.champion_genome(), &right, "the best champion's genome");
-    // What cannot be expressed has no body.
-    if let Ok(creature) = terms.config.problem().express(genome)
-        && terms.is_of_this_version()
-    {
-        let mut right = Vec::new();
-        let (morphology, controller) = (&creature.morphology, &creature.controller);
-        urdf::write(morphology, controller, "champion", &mut right)
-            .expect("memory takes everything");
+    if let Some(right) = problem.body(genome).filter(|_| terms.is_of_this_version()) {
         compare(&mut check, &dir.champion_body(), &right, "the best champion's body");
     }
     check
 }
 
-fn check_metrics(dir: &RunDir, terms: &Terms, records: &Records, sound: bool) -> Check {
+fn check_metrics<G: Gene>(dir: &RunDir, terms: &Terms, records: &Records<G>, sound: bool) -> Check {
     let mut check = Check::of("metrics").checked("metrics.csv");
     if !sound {
         check.note("not checked: the islands' records are damaged");

@@ -1,22 +1,25 @@
 //! `islands verify`: whether a run's folder holds what it claims.
 //!
 //! `records` reads what each island left, and `rules` says what must hold of it; `ancestry`
-//! breeds the champions again; `claims` compares it with the
+//! breeds the champions again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it with the
 //! files of the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
 //!
 //! Nothing is written, and a folder may hold anything: what is wrong is a sentence, not an end.
 
 mod ancestry;
+mod arrivals;
 mod check;
 mod claims;
 mod records;
 mod retrial;
 mod rules;
 
+use super::catalogue::Visitor;
 use super::cli::VerifyArgs;
 use super::config::{Config, FILE_BYTES_MAX};
 use super::console::print;
 use super::seeds::{self, SeedGenomes};
+use super::subject::Subject;
 use super::{Failure, table, terrains};
 use crate::store::{RunDir, StoreError, file};
 use check::{Check, counted};
@@ -36,7 +39,10 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
     }
     let dir = RunDir::at(&args.dir);
     let verdict = match configuration(&dir)? {
-        Ok(config) => pool(args)?.install(|| examine(&dir, &config, args.thorough)),
+        Ok(config) => {
+            let (dir, config, thorough) = (&dir, &config, args.thorough);
+            pool(args)?.install(|| config.visit(Examination { dir, config, thorough }))
+        }
         Err(reason) => Verdict::without_configuration(&dir, reason),
     };
     let wrong = verdict.wrong();
@@ -104,21 +110,38 @@ fn launched(text: &str, dir: &RunDir) -> Result<Config, String> {
     Ok(config)
 }
 
-fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
+/// A run that is to be looked through.
+struct Examination<'a> {
+    dir: &'a RunDir,
+    config: &'a Config,
+    thorough: bool,
+}
+
+impl Visitor for Examination<'_> {
+    type Output = Verdict;
+
+    fn visit<P: Subject>(self, problem: P) -> Verdict {
+        examine(self.dir, self.config, &problem, self.thorough)
+    }
+}
+
+fn examine<P: Subject>(dir: &RunDir, config: &Config, problem: &P, thorough: bool) -> Verdict {
     let summary = claims::SummaryFile::read(dir);
-    let terms = Terms::new(config, summary.is_of_the_end(config.generations));
-    let (records, mut checks) = Records::read(dir, &terms);
+    let terms =
+        Terms::new(config, summary.is_of_the_end(config.generations), problem.judge().is_some());
+    let (records, mut checks) = Records::<P::Gene>::read(dir, &terms);
     let sound = checks.iter().all(Check::is_fine);
-    checks.push(ancestry::check(dir, &terms, &records, sound));
+    checks.push(ancestry::check(dir, problem, &terms, &records, sound));
     checks.insert(0, check_version(&terms));
     if let Some(said) = &config.seed_genomes {
-        checks.insert(1, check_seeds(dir, said));
+        checks.insert(1, check_seeds(dir, problem, said));
     }
     let mut digest = None;
     if terms.finished {
-        let (found, claims) = claims::check(dir, &terms, &records, &summary, sound);
+        let (found, claims) = claims::check(dir, problem, &terms, &records, &summary, sound);
         digest = found;
         checks.extend(claims);
+        checks.extend(arrivals::replay(dir, problem, &terms, &records, thorough, sound));
     } else {
         checks.push(claims::none_yet(&terms, &records));
     }
@@ -127,7 +150,7 @@ fn examine(dir: &RunDir, config: &Config, thorough: bool) -> Verdict {
         digest,
         champions: records.champions.iter().map(Vec::len).sum(),
         checks,
-        retrial: Some(retrial::retry(&records.claims(thorough, &terms), config)),
+        retrial: Some(retrial::retry(&records.claims(thorough, &terms), config, problem)),
     }
 }
 
@@ -142,9 +165,9 @@ fn check_version(terms: &Terms) -> Check {
 }
 
 /// Whether the genomes that the run began with are still what its configuration says.
-fn check_seeds(dir: &RunDir, said: &SeedGenomes) -> Check {
+fn check_seeds<P: Subject>(dir: &RunDir, problem: &P, said: &SeedGenomes) -> Check {
     let mut check = Check::of("seed-genomes.csv").checked(counted(said.count, "genome"));
-    if let Err(failure) = seeds::load(dir, said) {
+    if let Err(failure) = seeds::load(problem, dir, said) {
         check.damaged(failure.message);
     }
     check

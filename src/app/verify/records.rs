@@ -1,35 +1,43 @@
 //! What the islands of a run left, read and checked.
 
+use super::arrivals;
 use super::check::{Check, counted};
 use super::retrial::Claim;
 use super::rules::Terms;
-use crate::archipelago::{Births, Champion, Island, Outbox};
-use crate::creature::Gene;
-use crate::evolution::{Fitness, Individual};
+use crate::archipelago::{Arrivals, Births, Champion, Island, Outbox};
+use crate::evolution::{Fitness, Gene, Individual};
 use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
 /// The whole records of every island, in the order of their index.
-#[derive(Default)]
-pub struct Records {
+pub struct Records<G> {
     /// The newest state of each island that is as it must be; those without one are left out.
-    pub states: Vec<Island<Gene>>,
+    pub states: Vec<Island<G>>,
     /// Each island's champions.
-    pub champions: Vec<Vec<Champion<Gene>>>,
+    pub champions: Vec<Vec<Champion<G>>>,
     /// Each island's generations.
     pub reports: Vec<Vec<Entry>>,
     /// Who was born on each island.
     pub lineages: Vec<Vec<Births>>,
     /// What each island sent.
-    pub outboxes: Vec<Vec<Outbox<Gene>>>,
+    pub outboxes: Vec<Vec<Outbox<G>>>,
+    /// What each island took in, where that is recorded.
+    pub arrivals: Vec<Vec<Arrivals>>,
 }
 
-impl Records {
+impl<G: Gene> Records<G> {
     /// Reads what there is of every island, and says what is wrong with it.
     pub fn read(dir: &RunDir, terms: &Terms) -> (Self, Vec<Check>) {
-        let mut records = Self::default();
+        let mut records = Self {
+            states: Vec::new(),
+            champions: Vec::new(),
+            reports: Vec::new(),
+            lineages: Vec::new(),
+            outboxes: Vec::new(),
+            arrivals: Vec::new(),
+        };
         let mut reader = Reader::new(dir, terms);
         (0..terms.config.islands).for_each(|island| reader.island(island, &mut records));
         let checks = reader.checks(&records);
@@ -37,30 +45,28 @@ impl Records {
     }
 
     /// The final states, if all are there.
-    pub fn finals(&self, terms: &Terms) -> Option<&[Island<Gene>]> {
-        let is_final = |state: &Island<Gene>| state.generation == terms.config.generations;
+    pub fn finals(&self, terms: &Terms) -> Option<&[Island<G>]> {
+        let is_final = |state: &Island<G>| state.generation == terms.config.generations;
         let all = self.states.len() == terms.config.islands as usize;
         (all && self.states.iter().all(is_final)).then_some(&self.states)
     }
 
     /// All who are said to have a fitness: champions; thoroughly, also those who live in the newest states and all
     /// who migrated.
-    pub fn claims<'a>(&'a self, thorough: bool, terms: &Terms) -> Vec<Claim<'a>> {
-        let problem = terms.config.problem();
-        let (engine, judge) = (problem.engine, problem.judge().map(|judge| judge.engine));
+    pub fn claims<'a>(&'a self, thorough: bool, terms: &Terms) -> Vec<Claim<'a, G>> {
         let champions = (0..).zip(&self.champions).flat_map(|(island, champions)| {
             champions.iter().map(move |champion| (island, champion))
         });
-        let claim = move |who, island, generation, individual: &'a Individual<Gene>| {
+        let claim = move |who, island, generation, individual: &'a Individual<G>| {
             let fitness = individual.fitness;
-            Claim { who, island, generation, genome: &individual.genome, fitness, engine }
+            Claim { who, island, generation, genome: &individual.genome, fitness, judged: false }
         };
-        let champions = champions.flat_map(move |(island, champion)| {
+        let champions = champions.flat_map(move |(island, champion): (u32, &'a Champion<G>)| {
             let Champion { generation, ref individual, confirmed } = *champion;
             let own = claim("champion", island, generation, individual);
             let fitness = confirmed.unwrap_or(Fitness::WORST);
-            let other =
-                judge.map(|engine| Claim { who: "confirmed champion", fitness, engine, ..own });
+            let other = Claim { who: "confirmed champion", fitness, judged: true, ..own };
+            let other = terms.is_judged.then_some(other);
             std::iter::once(own).chain(other)
         });
         let residents = self.states.iter().flat_map(|state| {
@@ -93,6 +99,7 @@ struct Reader<'a> {
     lineages: Check,
     champions: Check,
     migrations: Check,
+    arrivals: Option<Check>,
 }
 
 impl<'a> Reader<'a> {
@@ -106,10 +113,11 @@ impl<'a> Reader<'a> {
             lineages: Check::of("lineages"),
             champions: Check::of("champions"),
             migrations: Check::of("migrations"),
+            arrivals: terms.is_async().then(|| Check::of("arrivals")),
         }
     }
 
-    fn island(&mut self, island: u32, records: &mut Records) {
+    fn island<G: Gene>(&mut self, island: u32, records: &mut Records<G>) {
         let Self { dir, terms, .. } = *self;
         let (newest, files) = self.newest_state(island);
         let state = newest.as_ref();
@@ -125,7 +133,7 @@ impl<'a> Reader<'a> {
         }
 
         let span = terms.span(state, |generation| generation + 1);
-        let rule = |births: &[_]| terms.lineages(births, &reports, state);
+        let rule = |births: &[_]| terms.lineages(island, births, &reports, state);
         let lineages = read_log(&dir.lineages(island), &mut self.lineages, terms, span, rule);
 
         let span = usize::from(state.is_some())..=terms.config.generations as usize + 1;
@@ -136,6 +144,12 @@ impl<'a> Reader<'a> {
         let rule = |outboxes: &[_]| terms.outboxes(island, outboxes, &reports);
         let outboxes = read_log(&dir.migrations(island), &mut self.migrations, terms, span, rule);
 
+        if let Some(check) = &mut self.arrivals {
+            let span = terms.span(state, |generation| terms.begun(generation));
+            let rule = |record: &[_]| terms.arrivals(island, record, &reports);
+            records.arrivals.push(read_log(&dir.arrivals(island), check, terms, span, rule));
+        }
+
         records.states.extend(newest);
         records.reports.push(reports);
         records.lineages.push(lineages);
@@ -144,7 +158,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The newest state of an island that is as it must be, and how many checkpoints there are.
-    fn newest_state(&mut self, island: u32) -> (Option<Island<Gene>>, usize) {
+    fn newest_state<G: Gene>(&mut self, island: u32) -> (Option<Island<G>>, usize) {
         let last = self.dir.checkpoint(island, self.terms.config.generations);
         let (mut newest, mut files, mut lacks_last) = (None, 0, self.terms.finished);
         let folder = Checkpoints::of(self.dir, island);
@@ -175,19 +189,25 @@ impl<'a> Reader<'a> {
     }
 
     /// The rows of the table.
-    fn checks(self, records: &Records) -> Vec<Check> {
+    fn checks<G>(self, records: &Records<G>) -> Vec<Check> {
         fn all<T>(logs: &[Vec<T>]) -> usize {
             logs.iter().map(Vec::len).sum()
         }
-        let Self { files, checkpoints, reports, lineages, champions, migrations, .. } = self;
+        let Self { files, checkpoints, reports, lineages, champions, migrations, arrivals, .. } =
+            self;
         let births = records.lineages.iter().flatten().map(|births| births.births.len()).sum();
-        vec![
+        let mut checks = vec![
             checkpoints.checked(counted(files, "file")),
             reports.checked(counted(all(&records.reports), "generation")),
             lineages.checked(counted(births, "birth")),
             champions.checked(counted(all(&records.champions), "champion")),
             migrations.checked(counted(all(&records.outboxes), "epoch")),
-        ]
+        ];
+        checks.extend(arrivals.map(|check| {
+            arrivals::match_journals(self.dir, records, check)
+                .checked(counted(all(&records.arrivals), "epoch"))
+        }));
+        checks
     }
 }
 

@@ -2,11 +2,9 @@
 
 use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
+use super::super::subject::Subject;
 use super::check::{Check, counted};
-use crate::creature::Gene;
-use crate::evolution::{Fitness, Gene as _, Problem, sharing};
-use crate::problems::Locomotion;
-use crate::simulation::Engine;
+use crate::evolution::{Fitness, Gene, sharing};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -20,7 +18,7 @@ const LINE_EVERY_S: f64 = 5.0;
 
 /// That somebody is as good as a file says.
 #[derive(Debug, Clone, Copy)]
-pub struct Claim<'a> {
+pub struct Claim<'a, G> {
     /// Who: a champion, a resident or a migrant.
     pub who: &'static str,
     /// On which island.
@@ -28,11 +26,11 @@ pub struct Claim<'a> {
     /// In which generation.
     pub generation: u32,
     /// The genome.
-    pub genome: &'a [Gene],
+    pub genome: &'a [G],
     /// What it is said to be worth…
     pub fitness: Fitness,
-    /// … when moved by this.
-    pub engine: Engine,
+    /// … in the eyes of the judge, or else of the problem itself.
+    pub judged: bool,
 }
 
 /// Somebody who is not as good as a file says.
@@ -83,11 +81,12 @@ impl Retrial {
 }
 
 /// Simulates on the threads of the current rayon pool, equal genomes once.
-pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
+pub fn retry<P: Subject>(claims: &[Claim<P::Gene>], config: &Config, problem: &P) -> Retrial {
     let claims_to_try = claims.iter().filter(|claim| may_have_lived(claim.genome, config));
-    let trials: BTreeMap<Key, &Claim> = claims_to_try.map(|claim| (key(claim), claim)).collect();
-    let found = evaluate(trials, &config.problem());
-    let mismatch = |claim: &Claim| {
+    let trials: BTreeMap<Key, &Claim<P::Gene>> =
+        claims_to_try.map(|claim| (key(claim), claim)).collect();
+    let found = evaluate(trials, problem);
+    let mismatch = |claim: &Claim<P::Gene>| {
         let Claim { who, island, generation, fitness: recorded, .. } = *claim;
         let found = found.get(&key(claim)).copied();
         let bits = |fitness: Fitness| fitness.get().to_bits();
@@ -105,21 +104,23 @@ pub fn retry(claims: &[Claim], config: &Config) -> Retrial {
 }
 
 /// Whether an individual of the run can have had this genome.
-fn may_have_lived(genome: &[Gene], config: &Config) -> bool {
-    (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(|gene| gene.is_valid())
+fn may_have_lived<G: Gene>(genome: &[G], config: &Config) -> bool {
+    (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(G::is_valid)
 }
 
 /// The fitness of each genome.
-fn evaluate<'a>(
-    trials: BTreeMap<Key<'a>, &Claim>,
-    problem: &Locomotion,
+fn evaluate<'a, P: Subject>(
+    trials: BTreeMap<Key<'a>, &Claim<P::Gene>>,
+    problem: &P,
 ) -> BTreeMap<Key<'a>, Fitness> {
+    let judge = problem.judge();
     let trials: Vec<_> = trials.into_iter().collect();
     let meter = Meter::new(trials.len());
     let costs: Vec<u64> = trials.iter().map(|(_, claim)| problem.cost(claim.genome)).collect();
     let found = sharing::dearest_first(&costs, |index| {
         let (key, claim) = trials[index];
-        let evaluation = Locomotion { engine: claim.engine, ..*problem }.evaluate(claim.genome);
+        let scorer = judge.as_ref().filter(|_| claim.judged).unwrap_or(problem);
+        let evaluation = scorer.evaluate(claim.genome);
         meter.tick();
         (key, evaluation.fitness)
     });
@@ -128,10 +129,10 @@ fn evaluate<'a>(
 }
 
 /// What is simulated once. Equal genomes have equal bytes.
-type Key<'a> = (Engine, &'a [u8]);
+type Key<'a> = (bool, &'a [u8]);
 
-fn key<'a>(claim: &Claim<'a>) -> Key<'a> {
-    (claim.engine, bytemuck::cast_slice(claim.genome))
+fn key<'a, G: Gene>(claim: &Claim<'a, G>) -> Key<'a> {
+    (claim.judged, bytemuck::cast_slice(claim.genome))
 }
 
 /// How far it has come: a bar on a terminal, now and then a line elsewhere.

@@ -4,11 +4,14 @@
 //! as that can be seen without evolving the whole run again.
 
 use super::super::config::Config;
-use crate::archipelago::{Archipelago, Birth, Births, Champion, Island, Outbox};
-use crate::creature::Gene;
+use crate::archipelago::arrivals::check_record;
+use crate::archipelago::{
+    Archipelago, Arrivals, Birth, Births, Champion, Emigrants, ExchangeMode, Graph, Island, Outbox,
+    Report,
+};
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Id};
+use crate::evolution::{Fitness, Gene, Id, Reproduction, Survival};
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -18,15 +21,19 @@ pub struct Terms<'a> {
     pub config: &'a Config,
     /// Whether it has come to its end: then its logs are complete.
     pub finished: bool,
+    /// Whether its champions were confirmed by another judge.
+    pub is_judged: bool,
     archipelago: Archipelago,
+    graph: Graph,
     settings: String,
 }
 
 impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
-    pub fn new(config: &'a Config, finished: bool) -> Self {
+    pub fn new(config: &'a Config, finished: bool, is_judged: bool) -> Self {
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
-        Self { config, finished, archipelago, settings }
+        let graph = archipelago.graph();
+        Self { config, finished, is_judged, archipelago, graph, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -36,9 +43,9 @@ impl<'a> Terms<'a> {
 
     /// How many records a log may have that has `of(g)` of them after generation g: all of a finished run, else
     /// at least those that the island's state needs.
-    pub fn span(
+    pub fn span<G>(
         &self,
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
         of: impl Fn(usize) -> usize,
     ) -> RangeInclusive<usize> {
         let all = of(self.config.generations as usize);
@@ -49,7 +56,7 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of a checkpoint, but for its place and its checksum.
-    pub fn state(&self, checkpoint: &Checkpoint<Gene>) -> Result<(), String> {
+    pub fn state<G: Gene>(&self, checkpoint: &Checkpoint<G>) -> Result<(), String> {
         let Checkpoint { settings, island } = checkpoint;
         let generations = self.config.generations;
         if *settings != self.settings {
@@ -62,11 +69,11 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of an island's reports.
-    pub fn reports(
+    pub fn reports<G>(
         &self,
         island: u32,
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         for (generation, entry) in (0..).zip(entries) {
             self.report(island, generation, entry)
@@ -91,17 +98,21 @@ impl<'a> Terms<'a> {
         if (report.island, report.generation) != (island, generation) {
             return wrong("is of another island or generation");
         }
-        let elites = if generation == 0 { 0 } else { self.config.elites };
-        let brood = (self.config.population - elites) as u64;
+        let brood = self.brood(generation) as u64;
         let Effort { evaluations, reused, outcomes } = report.effort;
         let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
         if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
             return wrong("counts evaluations that cannot have been");
         }
-        let arrive = self.archipelago.migration.immigration(generation).is_some();
-        let senders = self.archipelago.in_neighbours(island).len();
-        let immigrants = if arrive { senders * self.config.migrants } else { 0 };
-        if report.immigrants as usize != immigrants {
+        let senders = self.graph.in_neighbours(island).len();
+        let immigrants = match self.archipelago.migration.immigration(generation) {
+            // What arrived is on record.
+            _ if self.is_async() => report.immigrants as usize,
+            Some(_) => senders * self.archipelago.migration.migrants,
+            None => 0,
+        };
+        let found = report.immigrants as usize;
+        if found > immigrants || (!self.is_map() && found < immigrants) {
             return wrong("counts immigrants that cannot have been");
         }
         if !entry.seconds.is_finite() || entry.seconds < 0.0 {
@@ -111,14 +122,15 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of those who were born on an island.
-    pub fn lineages(
+    pub fn lineages<G>(
         &self,
+        island: u32,
         lineages: &[Births],
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         for (generation, births) in (0..).zip(lineages) {
-            self.births(generation, births, entries.get(generation as usize))
+            self.births([island, generation], births, entries.get(generation as usize))
                 .map_err(|reason| format!("what it says of generation {generation} {reason}"))?;
         }
         let Some(state) = state else { return Ok(()) };
@@ -136,18 +148,25 @@ impl<'a> Terms<'a> {
         }
     }
 
-    fn births(&self, generation: u32, found: &Births, entry: Option<&Entry>) -> Result<(), String> {
+    fn births(
+        &self,
+        [island, generation]: [u32; 2],
+        found: &Births,
+        entry: Option<&Entry>,
+    ) -> Result<(), String> {
         let wrong = |reason: &str| Err(reason.to_owned());
-        let Config { population, elites, islands, .. } = *self.config;
-        let brood = if generation == 0 { population } else { population - elites };
-        if found.generation != generation || found.births.len() != brood {
+        let Config { population, islands, .. } = *self.config;
+        let is_scale = found.amount_scale > 0.0 && found.amount_scale.is_finite();
+        let has_size = found.births.len() == self.brood(generation);
+        if found.generation != generation || !has_size || !is_scale {
             return wrong("is of another generation or size");
         }
-        let lived = |id: Id| {
-            id.generation < generation && id.island < islands && (id.index as usize) < population
-        };
+        let is_older =
+            |id: Id| id.generation < generation || (self.is_async() && id.island != island);
+        let lived =
+            |id: Id| is_older(id) && id.island < islands && (id.index as usize) < population;
         let can_be = |birth: &Birth| match birth.parents {
-            [None, None] => generation == 0,
+            [None, None] => generation == 0 || self.has_newcomers(),
             [Some(mother), None] => lived(mother),
             [Some(mother), Some(father)] => lived(mother) && lived(father),
             [None, Some(_)] => false,
@@ -157,23 +176,23 @@ impl<'a> Terms<'a> {
         }
         let best = found.births.iter().map(|birth| birth.fitness).max();
         let Some(lived) = entry.map(|entry| entry.report.statistics.best) else { return Ok(()) };
-        if best > Some(lived) || (elites == 0 && best != Some(lived)) {
+        if best > Some(lived) || (!self.keeps_its_best() && best != Some(lived)) {
             return wrong("disagrees with its report");
         }
         Ok(())
     }
 
     /// What must hold of an island's champions.
-    pub fn champions(
+    pub fn champions<G: Gene>(
         &self,
-        champions: &[Champion<Gene>],
+        champions: &[Champion<G>],
         entries: &[Entry],
-        state: Option<&Island<Gene>>,
+        state: Option<&Island<G>>,
     ) -> Result<(), String> {
         if champions.first().is_some_and(|first| first.generation != 0) {
             return Err("its first champion is not of generation 0".to_owned());
         }
-        let is_judged = self.config.problem().judge().is_some();
+        let is_judged = self.is_judged;
         if champions.iter().any(|champion| champion.confirmed.is_some() != is_judged) {
             return Err(match is_judged {
                 true => "it has a champion that rapier did not confirm".to_owned(),
@@ -204,15 +223,74 @@ impl<'a> Terms<'a> {
 
     /// A champion is at least as good as everybody who lived; where elites live on, the best of the population
     /// is as good as it. Without them an immigrant may be better for a moment and leave no such offspring.
-    fn reigns_rightly(&self, champions: &[Champion<Gene>], entry: &Entry) -> Result<(), String> {
+    fn reigns_rightly<G: Gene>(
+        &self,
+        champions: &[Champion<G>],
+        entry: &Entry,
+    ) -> Result<(), String> {
         let generation = entry.report.generation;
         let best = entry.report.statistics.best;
         let champion =
             reign(champions, generation).map_or(Fitness::WORST, |reign| reign.individual.fitness);
-        if champion < best || (self.config.elites > 0 && champion > best) {
+        if champion < best || (self.keeps_its_best() && champion > best) {
             return Err(format!("it disagrees with the report of generation {generation}"));
         }
         Ok(())
+    }
+
+    /// How many are born in a generation.
+    fn brood(&self, generation: u32) -> usize {
+        let strategy = &self.archipelago.strategy;
+        if generation == 0 { strategy.population } else { strategy.brood() }
+    }
+
+    /// Whether the population is a map, which may have fewer individuals than are to be sent.
+    fn is_map(&self) -> bool {
+        matches!(self.archipelago.strategy.survival, Survival::MapElites { .. })
+    }
+
+    /// Whether somebody without parents may be born after generation 0.
+    fn has_newcomers(&self) -> bool {
+        let strategy = &self.archipelago.strategy;
+        strategy.survival == Survival::Afpo || strategy.reproduction != Reproduction::Parents
+    }
+
+    /// Whether the best of a population lives on.
+    fn keeps_its_best(&self) -> bool {
+        let strategy = &self.archipelago.strategy;
+        strategy.elites > 0 || strategy.survival.is_steady()
+    }
+
+    /// Whether its islands do not wait for each other.
+    pub fn is_async(&self) -> bool {
+        self.config.exchange == ExchangeMode::Async
+    }
+
+    /// What must hold of the record of what an island took in, but for the senders' journals.
+    pub fn arrivals(
+        &self,
+        island: u32,
+        record: &[Arrivals],
+        entries: &[Entry],
+    ) -> Result<(), String> {
+        check_record(record, &self.archipelago, island)?;
+        for entry in entries {
+            let Report { generation, immigrants, .. } = entry.report;
+            let epoch = self.archipelago.migration.beginning(generation);
+            let arrivals = epoch.and_then(|epoch| record.get(epoch as usize));
+            let outboxes = arrivals.map_or(0, |arrivals| arrivals.taken.len());
+            let sent = outboxes * self.archipelago.migration.migrants;
+            let found = immigrants as usize;
+            if found > sent || (!self.is_map() && found < sent) {
+                return Err(format!("it disagrees with the report of generation {generation}"));
+            }
+        }
+        Ok(())
+    }
+
+    /// How many epochs an island has begun by the end of a generation.
+    pub fn begun(&self, generation: usize) -> usize {
+        generation.div_ceil(self.config.migration_interval as usize)
     }
 
     /// How many outboxes an island has sent by the end of a generation.
@@ -221,10 +299,10 @@ impl<'a> Terms<'a> {
     }
 
     /// What must hold of an island's journal.
-    pub fn outboxes(
+    pub fn outboxes<G: Gene>(
         &self,
         island: u32,
-        outboxes: &[Outbox<Gene>],
+        outboxes: &[Outbox<G>],
         entries: &[Entry],
     ) -> Result<(), String> {
         for (epoch, outbox) in (0..).zip(outboxes) {
@@ -233,15 +311,17 @@ impl<'a> Terms<'a> {
                 return wrong("is of another island or epoch");
             }
             let fitness: Vec<Fitness> = outbox.migrants.iter().map(|m| m.fitness).collect();
-            let are_the_best = fitness.is_sorted_by(|a, b| a >= b);
+            let are_in_order = fitness.is_sorted_by(|a, b| a >= b);
             let can_be_sent = outbox.fits(&self.archipelago, island);
-            if fitness.len() != self.config.migrants || !are_the_best || !can_be_sent {
+            let are_all = fitness.len() == self.archipelago.migration.migrants || self.is_map();
+            if !are_all || !are_in_order || !can_be_sent {
                 return wrong("holds migrants that cannot have been sent");
             }
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
             let best = entries.get(generation).map(|entry| entry.report.statistics.best);
+            let sends_the_best = self.config.emigrants == Emigrants::Best;
             if let (Some(best), Some(&first)) = (best, fitness.first())
-                && best != first
+                && (first > best || (sends_the_best && first < best))
             {
                 return wrong(&format!("disagrees with the report of generation {generation}"));
             }
@@ -251,7 +331,7 @@ impl<'a> Terms<'a> {
 }
 
 /// The champion at the end of a generation; they must be in order.
-fn reign(champions: &[Champion<Gene>], generation: u32) -> Option<&Champion<Gene>> {
+fn reign<G>(champions: &[Champion<G>], generation: u32) -> Option<&Champion<G>> {
     let after = champions.partition_point(|champion| champion.generation <= generation);
     champions[..after].last()
 }

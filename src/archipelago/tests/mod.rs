@@ -1,12 +1,16 @@
 //! The exchange protocol under thousands of seeded schedules of loss, delay and death, in virtual time.
 
+mod product;
+mod schemes;
 mod sea;
 pub mod toy;
 mod world;
 
 use super::inbox::WINDOW;
 use super::voyage::PATIENCE;
-use super::{Archipelago, Arrival, Deed, Digest, Migration, Outbox, Voyage, lockstep};
+use super::{
+    Archipelago, Arrival, Deed, Digest, ExchangeMode, Migration, Outbox, Voyage, lockstep,
+};
 use crate::rng::{Purpose, Source, Stream};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
@@ -43,26 +47,70 @@ const HAPPENINGS: [&str; 17] = [
     "got what was kept",
 ];
 
+/// The same where nobody waits.
+const HAPPENINGS_ASYNC: [&str; 11] = [
+    "began an epoch with immigrants",
+    "began an epoch with nothing",
+    "born from a checkpoint",
+    "born from the seed again",
+    "died at its destination",
+    "died before it recorded what it took in",
+    "died before it saved itself",
+    "died before it sent",
+    "died before it wrote its journal",
+    "died between two generations",
+    "took in again what it had recorded",
+];
+
 #[test]
 fn whatever_is_lost_and_whoever_dies_a_voyage_ends_in_the_bits_of_the_reference() {
     let asked = std::env::var(SCHEDULES).ok();
     let schedules = asked.map_or(SCHEDULES_USUAL, |n| n.parse().expect("a number of schedules"));
-    let tally = (0..schedules).into_par_iter().map(try_schedule).reduce(Tally::new, add);
-    for happening in HAPPENINGS {
+    let drawn = |seed| try_schedule(seed, |_| ());
+    assert_all_happened(
+        &(0..schedules).into_par_iter().map(drawn).reduce(Tally::new, add),
+        &HAPPENINGS,
+        schedules,
+    );
+}
+
+#[test]
+fn where_nobody_waits_whoever_dies_a_voyage_ends_in_the_bits_that_the_records_lead_to() {
+    let schedules = SCHEDULES_USUAL;
+    let drawn = |seed| {
+        try_schedule(seed, |schedule| schedule.archipelago.migration.exchange = ExchangeMode::Async)
+    };
+    assert_all_happened(
+        &(0..schedules).into_par_iter().map(drawn).reduce(Tally::new, add),
+        &HAPPENINGS_ASYNC,
+        schedules,
+    );
+}
+
+fn assert_all_happened(tally: &Tally, happenings: &[&str], schedules: u64) {
+    for happening in happenings {
         let often = tally.get(happening).copied().unwrap_or(0);
         assert!(often >= schedules / 100, "{happening}: hardly ever, in {tally:#?}");
     }
     eprintln!("{schedules} schedules: {tally:#?}");
 }
 
-/// Tries one schedule, and returns what happened in it.
-fn try_schedule(seed: u64) -> Tally {
+/// Tries the schedule that a seed draws, changed, and returns what happened in it.
+fn try_schedule(seed: u64, change: impl Fn(&mut Schedule)) -> Tally {
     let _name = NameOnPanic(seed);
     let mut rng = Source { seed, island: 0 }.stream(0, 0, Purpose::Genesis);
-    let schedule = draw(&mut rng);
+    let mut schedule = draw(&mut rng);
+    change(&mut schedule);
     let mut world = World::new(&schedule, rng);
     let islands = world.run(DEADLINE).expect("every voyage ends");
-    let reference = lockstep::run(&Toy, &schedule.archipelago, schedule.generations, |_| ());
+    let Schedule { archipelago, generations, .. } = &schedule;
+    let reference = match archipelago.migration.exchange {
+        ExchangeMode::Sync => lockstep::run(&Toy, archipelago, *generations, |_| ()),
+        ExchangeMode::Async => {
+            let records = world.records();
+            lockstep::replay(&Toy, archipelago, *generations, &records, |_| ()).unwrap()
+        }
+    };
     assert_eq!(Digest::of(&islands), Digest::of(&reference), "{schedule:#?}");
     assert_eq!(islands, reference, "{schedule:#?}");
     world.tally
@@ -91,6 +139,7 @@ fn draw(rng: &mut Stream) -> Schedule {
         interval: rng.random_range(1..=4),
         migrants: rng.random_range(0..=3),
         lag: rng.random_range(0..=3),
+        ..Migration::default()
     };
     let islands = rng.random_range(1..=5);
     Schedule {
@@ -119,7 +168,7 @@ fn one_of<T: Copy, const N: usize>(rng: &mut Stream, choices: [T; N]) -> T {
 
 /// A pair that exchanges after every generation, without a lag.
 fn pair() -> Archipelago {
-    archipelago(2, 1, Migration { interval: 1, migrants: 1, lag: 0 })
+    archipelago(2, 1, Migration { interval: 1, migrants: 1, lag: 0, ..Migration::default() })
 }
 
 fn outbox(epoch: u32) -> Outbox<Bit> {

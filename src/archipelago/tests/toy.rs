@@ -16,9 +16,15 @@ pub fn archipelago(islands: u32, seed: u64, migration: Migration) -> Archipelago
         shrink_rate: 0.1,
         grow_rate: 0.2,
         genes_max: 12,
+        ..Variation::default()
     };
-    let selection = Selection::Tournament { size: 2 };
-    let strategy = Strategy { population: 5, elites: 1, selection, variation };
+    let strategy = Strategy {
+        population: 5,
+        elites: 1,
+        selection: Selection::Tournament { size: 2 },
+        variation,
+        ..Strategy::default()
+    };
     Archipelago { islands, seed, topology: Topology::Ring, migration, strategy }
 }
 
@@ -50,8 +56,8 @@ impl Problem for Toy {
         (0..3).map(|_| self.random_gene(rng)).collect()
     }
 
-    fn mutate_gene(&self, gene: &mut Bit, rate: f64, _amount: f64, rng: &mut Stream) {
-        if rng.random_bool(rate) {
+    fn mutate_gene(&self, gene: &mut Bit, variation: &Variation, rng: &mut Stream) {
+        if rng.random_bool(variation.point_rate) {
             gene.0 ^= 1;
         }
     }
@@ -64,6 +70,11 @@ impl Problem for Toy {
     fn evaluate(&self, genome: &[Bit]) -> Evaluation {
         let worth = |(place, bit): (usize, &Bit)| u32::from(bit.0) * (16 + place as u32);
         Evaluation::scored(genome.iter().enumerate().map(worth).sum::<u32>().into())
+    }
+
+    fn features(&self, genome: &[Bit]) -> [f64; 2] {
+        let ones = genome.iter().filter(|bit| bit.0 == 1).count();
+        [genome.len() as f64 / 12.0, ones as f64 / 12.0]
     }
 
     // A pool of threads would take far longer than the work.

@@ -2,7 +2,8 @@
 
 use super::sea::{Sea, Weather};
 use super::toy::{Bit, Toy};
-use crate::archipelago::{Archipelago, Arrival, Deed, Island, Outbox, Step, Voyage};
+use crate::archipelago::arrivals::check_record;
+use crate::archipelago::{Archipelago, Arrival, Arrivals, Deed, Island, Outbox, Step, Voyage};
 use crate::rng::Stream;
 use rand::RngExt;
 use std::collections::{BTreeMap, VecDeque};
@@ -50,6 +51,7 @@ pub struct World<'a> {
 #[derive(Default)]
 struct Host<'a> {
     journal: Vec<Outbox<Bit>>,
+    record: Vec<Arrivals>,
     checkpoints: BTreeMap<u32, Island<Bit>>,
     process: Option<Process<'a>>,
     acts_at: Duration,
@@ -64,6 +66,7 @@ struct Process<'a> {
 
 /// What a process does to the world, one at a time: between any two it may die.
 enum Effect {
+    Record(Arrivals),
     Append(Outbox<Bit>),
     Save(Island<Bit>),
     Send(Outbox<Bit>),
@@ -101,6 +104,11 @@ impl<'a> World<'a> {
             }
         }
         self.hosts.iter().map(|host| host.checkpoints.values().last().cloned()).collect()
+    }
+
+    /// What each island recorded of what it took in.
+    pub fn records(&self) -> Vec<Vec<Arrivals>> {
+        self.hosts.iter().map(|host| host.record.clone()).collect()
     }
 
     fn pause(&mut self) -> Duration {
@@ -157,7 +165,8 @@ impl<'a> World<'a> {
         let effects = host.journal[unsent..].iter().cloned().map(Effect::SendAgain).collect();
         let from_seed = saved.is_none();
         let voyage = Voyage::begin(&Toy, archipelago, island, *generations, saved);
-        let voyage = voyage.with_window(*window);
+        assert_eq!(check_record(&host.record, archipelago, island), Ok(()));
+        let voyage = voyage.with_window(*window).with_record(host.record.clone());
         host.process = Some(Process { voyage, effects, has_arrived: false });
         match kept {
             0 => {}
@@ -177,7 +186,10 @@ impl<'a> World<'a> {
         let process = process.as_mut().expect("only the living look");
         let arrivals: Vec<Arrival> =
             arrived.into_iter().map(|outbox| process.voyage.receive(outbox)).collect();
-        match process.voyage.advance(now) {
+        let deed = process.voyage.advance(now);
+        match deed {
+            Deed::Recall(outboxes) => return self.recall(island, &outboxes),
+            Deed::Record(arrivals) => process.effects.push_back(Effect::Record(arrivals)),
             Deed::Evolved(step) => process.has_evolved(*step, self.schedule),
             Deed::Ask { sources, epoch } => {
                 process.effects.extend(sources.into_iter().map(|from| Effect::Ask(from, epoch)));
@@ -198,8 +210,25 @@ impl<'a> World<'a> {
         }
     }
 
+    /// Reads in the others' journals what an earlier life took in.
+    fn recall(&mut self, island: u32, outboxes: &[(u32, u32)]) {
+        self.count("took in again what it had recorded");
+        for &(source, epoch) in outboxes {
+            let outbox = self.hosts[source as usize].journal[epoch as usize].clone();
+            let process = self.hosts[island as usize].process.as_mut();
+            process.expect("only the living recall").voyage.recall(outbox);
+        }
+    }
+
     fn perform(&mut self, island: u32, effect: Effect, now: Duration) {
         match effect {
+            Effect::Record(arrivals) => {
+                self.count(match arrivals.taken.is_empty() {
+                    true => "began an epoch with nothing",
+                    false => "began an epoch with immigrants",
+                });
+                self.hosts[island as usize].record.push(arrivals);
+            }
             Effect::Append(outbox) => self.hosts[island as usize].append(outbox),
             Effect::Save(state) => self.hosts[island as usize].save(state),
             Effect::Send(outbox) | Effect::SendAgain(outbox) => {
@@ -251,6 +280,7 @@ impl Process<'_> {
     /// What it was about to do when it died.
     fn last_words(&self) -> &'static str {
         match self.effects.front() {
+            Some(Effect::Record(_)) => "died before it recorded what it took in",
             Some(Effect::Append(_)) => "died before it wrote its journal",
             Some(Effect::Save(_)) => "died before it saved itself",
             Some(Effect::Send(_)) => "died before it sent",

@@ -327,6 +327,16 @@ impl<G: Footing> World for FeatherstoneWorld<G> {
         self.midway.place(&self.model, &mut self.places);
     }
 
+    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+        let push = Spatial::new(Vector3::zeros(), velocity_m_s);
+        self.midway.position_m += velocity_m_s * (0.5 * self.step_s);
+        let links = self.velocities.iter_mut().zip(&mut self.momenta).zip(&self.places);
+        for ((velocity, momentum), place) in links {
+            *velocity += push;
+            *momentum += place.inertia.times(&push);
+        }
+    }
+
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
         let (rotation, origin_m) = self.configuration.world_from_link(&self.model, part);
         let rotation = Rotation3::from_matrix_unchecked(rotation);

@@ -1,5 +1,6 @@
 //! The stepper against the textbook: identities that hold between its algorithms and others for the same thing.
 
+use super::super::perturbation::Perturbation;
 use super::super::terrain::Ground;
 use super::super::trial::Start;
 use super::*;
@@ -11,6 +12,7 @@ use rand_chacha::ChaCha8Rng;
 
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
+    perturbation: Perturbation::NONE,
     gravity_m_s2: 9.81,
     ground: Ground::Plane,
     start: Start::LowestAt(0.1),

@@ -122,6 +122,24 @@ impl World for RapierWorld {
         }
     }
 
+    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+        let velocity_m_s = velocity_m_s.cast::<f32>();
+        if let Some((multibody, _)) =
+            self.joint().and_then(|joint| self.scene.world.multibody_joints.get_mut(joint))
+        {
+            // The root's first; all others are relative to it.
+            let mut velocities = multibody.generalized_velocity_mut();
+            let mut root = velocities.rows_mut(0, 3);
+            root += velocity_m_s;
+        }
+        for (rigid_body, _) in &self.parts {
+            let rigid_body = &mut self.scene.world.bodies[*rigid_body];
+            let [x, y, z] = velocity_m_s.into();
+            let pushed = rigid_body.linvel() + rapier::Vector::new(x, y, z);
+            rigid_body.set_linvel(pushed, false);
+        }
+    }
+
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
         from_rapier(self.rigid_body(part).position())
     }

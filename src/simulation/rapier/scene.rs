@@ -35,9 +35,9 @@ impl Scene {
                 vec![Self::ground_collider(plane)]
             }
         };
+        let friction = FRICTION * trial.perturbation.friction * trial.ground.roughness();
         for ground in grounds {
-            let ground = ground.friction((FRICTION * trial.ground.roughness()) as f32);
-            world.insert_collider(ground, None);
+            world.insert_collider(ground.friction(friction as f32), None);
         }
         Self { world }
     }

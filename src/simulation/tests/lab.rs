@@ -56,6 +56,10 @@ impl Lab {
         (0..self.trial.steps_in_exactly(seconds)).for_each(|_| self.step());
     }
 
+    pub fn parts(&self) -> usize {
+        self.assembly.parts.len()
+    }
+
     pub fn pose(&self, part: usize) -> Isometry3<f64> {
         self.world.world_from_part(part)
     }

@@ -11,9 +11,11 @@ mod hinge;
 mod lab;
 mod ledger;
 mod pendulum;
+mod perturbed;
 mod sliding;
 mod slopes;
 
+use super::perturbation::Perturbation;
 use super::terrain::Ground;
 use super::trial::{Start, Trial};
 
@@ -23,6 +25,7 @@ const GRAVITY_M_S2: f64 = 10.0;
 /// A body that stands on the ground. The tests step by themselves, so that its times mean nothing.
 const TRIAL: Trial = Trial {
     steps_per_s: 240,
+    perturbation: Perturbation::NONE,
     gravity_m_s2: GRAVITY_M_S2,
     ground: Ground::Plane,
     start: Start::LowestAt(0.0),

@@ -2,6 +2,7 @@
 
 mod claims;
 mod deaths;
+mod graphs;
 mod lives;
 
 use super::ports;
@@ -40,7 +41,7 @@ fn archipelago(islands: u32) -> Archipelago {
         islands,
         seed: 1,
         topology: Topology::Ring,
-        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1 },
+        migration: Migration { interval: 1, migrants: MIGRANTS, lag: 1, ..Migration::default() },
         strategy: Strategy {
             population: 4,
             elites: 1,
@@ -52,7 +53,9 @@ fn archipelago(islands: u32) -> Archipelago {
                 shrink_rate: 0.1,
                 grow_rate: 0.1,
                 genes_max: GENES_MAX,
+                ..Variation::default()
             },
+            ..Strategy::default()
         },
     }
 }
@@ -76,6 +79,7 @@ fn individual(island: u32, epoch: u32, index: u32) -> Individual<TestGene> {
     Individual {
         id,
         parents: [parent, None],
+        origin: 0,
         genome: (0..length as u32).map(gene).collect(),
         fitness: if index == 2 { Fitness::WORST } else { Fitness::new(f64::from(epoch) / 3.0) },
     }
@@ -96,6 +100,7 @@ fn report(island: u32, generation: u32) -> Report {
             mean,
             median,
             diversity: 0.25,
+            phenotype_diversity: 0.125,
             spread: Spread::of(&[1.5, 3.0]),
         },
         effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1] },

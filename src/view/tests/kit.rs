@@ -23,6 +23,7 @@ pub fn card(islands: u32) -> RunCard {
         unit: "m".into(),
         description_markdown: "# A run\n\nseed 1".into(),
         topology_edges: (0..islands).map(|i| (i, (i + 1) % islands)).collect(),
+        has_stage: true,
         has_family: true,
         pace: Pace { slot_s: 0.5, generations_per_slot: 10 },
         ground: Ground::Plane,
@@ -72,6 +73,7 @@ pub fn report(island: u32, generation: u32) -> Report {
         mean,
         median: mean,
         diversity: 1.0 / (1.0 + g * (1.0 + 0.2 * f64::from(island)) / 10.0),
+        phenotype_diversity: 0.5,
         spread: Spread::of(&(0..50).map(|i| f64::from(i * i) / 1000.0).collect::<Vec<_>>()),
     };
     Report { island, generation, statistics, effort: Effort::default(), immigrants: 0 }

@@ -226,11 +226,11 @@ fn figures_stand_at_the_film_time_of_their_generation() {
     );
 }
 
-#[test]
-fn every_island_has_a_view() {
+/// The names of the views of a film, in order, and whether they are to be shown.
+fn views(card: RunCard) -> (Vec<String>, bool) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("run.rrd");
-    recorder(&path, None, card(2)).unwrap().finish().unwrap();
+    recorder(&path, None, card).unwrap().finish().unwrap();
     let mut names = Vec::new();
     let mut activated = false;
     for message in messages(&path) {
@@ -240,6 +240,32 @@ fn every_island_has_a_view() {
         }
     }
     names.sort();
+    (names, activated)
+}
+
+#[test]
+fn where_there_are_no_bodies_there_is_no_stage() {
+    let card = RunCard { has_stage: false, unit: String::new(), ..card(2) };
+    let expected = [
+        "Best fitness",
+        "Diversity (mean distance of genomes, 0–1)",
+        "Events",
+        "Family",
+        "Island state",
+        "Mean fitness",
+        "Run",
+        "Spread 0",
+        "Spread 1",
+        "Topology",
+    ];
+    let (names, activated) = views(card);
+    assert_eq!(names, expected);
+    assert!(activated);
+}
+
+#[test]
+fn every_island_has_a_view() {
+    let (names, activated) = views(card(2));
     let expected = [
         "Best fitness (m)",
         "Diversity (mean distance of genomes, 0–1)",

@@ -1,0 +1,69 @@
+//! Whether what islands took in, where they do not wait for each other, was sent, and leads to what they became.
+
+use super::super::seeds;
+use super::super::subject::Subject;
+use super::check::{Check, counted};
+use super::records::Records;
+use super::rules::Terms;
+use crate::archipelago::{Digest, lockstep};
+use crate::store::RunDir;
+
+/// Says of each outbox that an island took in whether it is in its sender's journal.
+pub fn match_journals<G>(dir: &RunDir, records: &Records<G>, mut check: Check) -> Check {
+    for (island, record) in (0..).zip(&records.arrivals) {
+        let taken = record.iter().flat_map(|arrivals| &arrivals.taken);
+        for &(source, epoch) in taken {
+            let sent = records.outboxes.get(source as usize).map_or(0, Vec::len);
+            if epoch as usize >= sent {
+                let reason =
+                    format!("epoch {epoch} of island {source} is not in that island's journal");
+                check.judge(&dir.arrivals(island), Err(reason));
+            }
+        }
+    }
+    check
+}
+
+/// Evolves a run that has finished again from its record, if that is wished (`thorough`): it must come to the same
+/// digest. `sound` says that nothing is wrong with its records. Nothing where the seed alone fixes the result.
+pub fn replay<P: Subject>(
+    dir: &RunDir,
+    problem: &P,
+    terms: &Terms,
+    records: &Records<P::Gene>,
+    thorough: bool,
+    sound: bool,
+) -> Option<Check> {
+    let generations = terms.config.generations;
+    let checked = counted(generations as usize, "generation");
+    let mut check = Check::of("replay").checked(checked);
+    let finals = records.finals(terms).filter(|_| sound);
+    match (finals, seeds::founded(dir, terms.config, problem.clone())) {
+        _ if !terms.is_async() => return None,
+        _ if !thorough => check.note("not tried: --thorough evolves the run again from its record"),
+        _ if !terms.is_of_this_version() => {
+            check.note("not tried: another version may evolve otherwise")
+        }
+        (Some(finals), Ok(problem)) => {
+            let archipelago = terms.config.archipelago();
+            let record = &records.arrivals;
+            match lockstep::replay(&problem, &archipelago, generations, record, |_| ()) {
+                Err(impossible) => check.damaged(impossible),
+                Ok(islands) => {
+                    let [found, expected] = [Digest::of(&islands), Digest::of(finals)];
+                    match found == expected {
+                        true if islands == finals => check.result("the same digest"),
+                        true => check.damaged(
+                            "what the islands took in leads to the same digest by another descent",
+                        ),
+                        false => check.damaged(format_args!(
+                            "what the islands took in leads to {found}, and the final populations have {expected}"
+                        )),
+                    }
+                }
+            }
+        }
+        _ => check.note("not tried: the run has not finished, or its records are damaged"),
+    }
+    Some(check)
+}

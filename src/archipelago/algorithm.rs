@@ -1,0 +1,80 @@
+//! The genetic algorithm, and simpler or other ones to compare it with.
+
+use super::{Archipelago, Migration};
+use crate::choice;
+use crate::evolution::{Reproduction, Selection, Strategy, Survival, Variation};
+use serde::{Deserialize, Serialize};
+
+/// What searches. All of them evaluate as many genomes a generation and count them alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Algorithm {
+    /// The genetic algorithm on islands.
+    Ga,
+    /// Random search: every genome is a random one.
+    Random,
+    /// A hill climber on each island: all offspring are mutants of the best so far, an evolution strategy (1 + λ)
+    /// (Rechenberg 1973) with the islands' mutation.
+    HillClimb,
+    /// CMA-ES on each island: see [`crate::evolution::cma`].
+    CmaEs,
+    /// The genetic algorithm on a single island that has as many individuals as all islands together.
+    Panmictic,
+}
+
+impl Algorithm {
+    /// Every algorithm.
+    pub const ALL: [Algorithm; 5] = [
+        Algorithm::Ga,
+        Algorithm::Random,
+        Algorithm::HillClimb,
+        Algorithm::CmaEs,
+        Algorithm::Panmictic,
+    ];
+
+    /// The archipelago on which this algorithm searches, where the settings are those of another one. What it has no use
+    /// for, such as migration between climbers, is off.
+    pub fn on(self, archipelago: Archipelago) -> Archipelago {
+        let Archipelago { strategy, migration, .. } = archipelago;
+        let alone = Migration { migrants: 0, ..migration };
+        let with = |strategy| Archipelago { strategy, migration: alone, ..archipelago };
+        let survival = Survival::Generational;
+        match self {
+            Algorithm::Ga | Algorithm::Panmictic => archipelago,
+            Algorithm::Random => {
+                let reproduction = Reproduction::Random;
+                with(Strategy { reproduction, survival, elites: 1, ..strategy })
+            }
+            Algorithm::HillClimb => {
+                let variation = Variation { crossover_rate: 0.0, ..strategy.variation };
+                // However few that are, the best is among them.
+                let selection = Selection::Truncation { fraction: 0.0 };
+                with(Strategy { selection, variation, survival, elites: 1, ..strategy })
+            }
+            Algorithm::CmaEs => {
+                let reproduction = Reproduction::CmaEs;
+                with(Strategy { reproduction, survival, elites: 0, ..strategy })
+            }
+        }
+    }
+}
+
+impl std::fmt::Display for Algorithm {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Algorithm::Ga => "ga",
+            Algorithm::Random => "random",
+            Algorithm::HillClimb => "hill-climb",
+            Algorithm::CmaEs => "cma-es",
+            Algorithm::Panmictic => "panmictic",
+        })
+    }
+}
+
+impl std::str::FromStr for Algorithm {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("algorithm", &Algorithm::ALL, text)
+    }
+}

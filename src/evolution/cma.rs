@@ -1,0 +1,281 @@
+//! CMA-ES, the covariance matrix adaptation evolution strategy, after Hansen's tutorial (2016, arXiv:1604.00772): a
+//! baseline for genomes of a fixed number of real values.
+//!
+//! It is written here, and not taken from a library, because its whole state must be what an island saves: a run of it
+//! survives a kill like any other.
+
+use super::fitness::Fitness;
+use super::variation::values::{normal, reflect};
+use crate::rng::Stream;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
+
+/// The step size to begin with, as a share of the range of a value: 0.3 as the tutorial has it.
+pub const FIRST_STEP: f64 = 0.3;
+
+/// The distribution that samples are drawn from, in a space where every value is from 0 to 1.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cma {
+    /// Its mean.
+    mean: Vec<f64>,
+    /// Its step size.
+    sigma: f64,
+    /// Its covariance, column by column.
+    covariance: Vec<f64>,
+    /// The evolution path of the step size.
+    sigma_path: Vec<f64>,
+    /// The evolution path of the covariance.
+    path: Vec<f64>,
+    /// Updates since it began, or began again.
+    updates: u32,
+}
+
+impl Cma {
+    /// A distribution about `mean`.
+    pub fn about(mean: Vec<f64>) -> Self {
+        let n = mean.len();
+        let identity: DMatrix<f64> = DMatrix::identity(n, n);
+        Self {
+            mean,
+            sigma: FIRST_STEP,
+            covariance: identity.as_slice().to_vec(),
+            sigma_path: vec![0.0; n],
+            path: vec![0.0; n],
+            updates: 0,
+        }
+    }
+
+    /// Whether what was read from a file can be such a state.
+    pub fn is_sound(&self) -> bool {
+        let n = self.mean.len();
+        let lengths = self.sigma_path.len() == n && self.path.len() == n;
+        let vectors = [&self.mean, &self.covariance, &self.sigma_path, &self.path];
+        n > 0
+            && lengths
+            && Some(self.covariance.len()) == n.checked_mul(n)
+            && vectors.into_iter().flatten().chain([&self.sigma]).all(|value| value.is_finite())
+    }
+
+    /// How many values a sample has.
+    pub fn dimensions(&self) -> usize {
+        self.mean.len()
+    }
+
+    /// What is needed to draw samples.
+    pub fn sampler(&self) -> Sampler {
+        let Axes { directions, lengths } = self.axes();
+        Sampler {
+            mean: self.mean.clone(),
+            axes: directions * DMatrix::from_diagonal(&(lengths * self.sigma)),
+        }
+    }
+
+    /// Learns from samples and what they were worth. If there is nothing to be learned any more, because the
+    /// distribution has shrunk to a point, has lost its shape, or all samples are worth the same, it begins again
+    /// about a random place.
+    pub fn learn(&mut self, samples: &[(Vec<f64>, Fitness)], rng: &mut Stream) {
+        let Some(&(_, first)) = samples.first() else { return };
+        if samples.iter().all(|(_, fitness)| *fitness == first) || !self.update(samples) {
+            *self = Self::about((0..self.dimensions()).map(|_| rng.random()).collect());
+        }
+    }
+
+    /// One update (equations 38 to 47 of the tutorial, without negative weights); whether the distribution is of use
+    /// after it.
+    fn update(&mut self, samples: &[(Vec<f64>, Fitness)]) -> bool {
+        let rates = Rates::of(self.dimensions(), samples.len());
+        let mut order: Vec<&(Vec<f64>, Fitness)> = samples.iter().collect();
+        order.sort_by_key(|(_, fitness)| Reverse(*fitness));
+
+        let old = DVector::from_column_slice(&self.mean);
+        let step = |values: &[f64]| (DVector::from_column_slice(values) - &old) / self.sigma;
+        let steps: Vec<DVector<f64>> =
+            order.iter().take(rates.weights.len()).map(|(values, _)| step(values)).collect();
+        let weighted = || rates.weights.iter().zip(&steps);
+        let mean_step: DVector<f64> =
+            weighted().fold(DVector::zeros(old.len()), |sum, (weight, step)| sum + step * *weight);
+
+        self.updates = self.updates.saturating_add(1);
+        let Axes { directions, lengths } = self.axes();
+        let white = directions.tr_mul(&mean_step).component_div(&lengths);
+        let sigma_path = DVector::from_column_slice(&self.sigma_path) * (1.0 - rates.c_sigma)
+            + (&directions * white) * libm::sqrt(rates.c_sigma * (2.0 - rates.c_sigma) * rates.mu);
+        let faded = 1.0 - libm::pow(1.0 - rates.c_sigma, 2.0 * f64::from(self.updates));
+        let is_steady = sigma_path.norm() / libm::sqrt(faded) < rates.stall;
+        let h = if is_steady { 1.0 } else { 0.0 };
+        let path = DVector::from_column_slice(&self.path) * (1.0 - rates.c_path)
+            + &mean_step * (h * libm::sqrt(rates.c_path * (2.0 - rates.c_path) * rates.mu));
+
+        let n = old.len();
+        let mut covariance = DMatrix::from_column_slice(n, n, &self.covariance);
+        let kept = 1.0 - rates.c_one - rates.c_mu
+            + (1.0 - h) * rates.c_one * rates.c_path * (2.0 - rates.c_path);
+        covariance *= kept;
+        covariance.ger(rates.c_one, &path, &path, 1.0);
+        for (weight, step) in weighted() {
+            covariance.ger(rates.c_mu * weight, step, step, 1.0);
+        }
+        self.mean = (&old + &mean_step * self.sigma).as_slice().to_vec();
+        self.sigma *=
+            libm::exp(rates.c_sigma / rates.damping * (sigma_path.norm() / rates.chi - 1.0));
+        (self.covariance, self.path) = (covariance.as_slice().to_vec(), path.as_slice().to_vec());
+        self.sigma_path = sigma_path.as_slice().to_vec();
+        self.is_of_use()
+    }
+
+    fn is_of_use(&self) -> bool {
+        if !self.is_sound() {
+            return false;
+        }
+        let lengths = self.axes().lengths;
+        let (least, most) = (lengths.min(), lengths.max());
+        self.sigma * most > 1e-12 && self.sigma < 1e3 && most < 1e7 * least
+    }
+
+    /// The principal axes of the covariance.
+    fn axes(&self) -> Axes {
+        let n = self.dimensions();
+        // Rounding must not let the two halves drift apart.
+        let covariance = DMatrix::from_column_slice(n, n, &self.covariance);
+        let symmetric = (&covariance + covariance.transpose()) * 0.5;
+        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(symmetric);
+        Axes { directions: eigenvectors, lengths: eigenvalues.map(|it| libm::sqrt(it.max(1e-300))) }
+    }
+}
+
+/// A distribution that was made ready for drawing.
+#[derive(Debug, Clone)]
+pub struct Sampler {
+    mean: Vec<f64>,
+    axes: DMatrix<f64>,
+}
+
+impl Sampler {
+    /// Draws a sample; what lies outside of the range is mirrored at its ends.
+    pub fn draw(&self, rng: &mut Stream) -> Vec<f64> {
+        let white = DVector::from_fn(self.mean.len(), |_, _| normal(rng));
+        let step = &self.axes * white;
+        self.mean.iter().zip(step.iter()).map(|(mean, step)| reflect(mean + step)).collect()
+    }
+}
+
+struct Axes {
+    directions: DMatrix<f64>,
+    lengths: DVector<f64>,
+}
+
+/// The strategy's parameters (table 1 of the tutorial): they follow from the number of values and of samples.
+struct Rates {
+    weights: Vec<f64>,
+    mu: f64,
+    c_sigma: f64,
+    damping: f64,
+    c_path: f64,
+    c_one: f64,
+    c_mu: f64,
+    chi: f64,
+    stall: f64,
+}
+
+impl Rates {
+    fn of(dimensions: usize, samples: usize) -> Self {
+        let n = dimensions as f64;
+        let parents = (samples / 2).max(1);
+        let raw = |rank: usize| libm::log((samples as f64 + 1.0) / 2.0) - libm::log(rank as f64);
+        let raw: Vec<f64> = (1..=parents).map(|rank| raw(rank).max(1e-9)).collect();
+        let sum: f64 = raw.iter().sum();
+        let weights: Vec<f64> = raw.iter().map(|weight| weight / sum).collect();
+        let mu = 1.0 / weights.iter().map(|weight| weight * weight).sum::<f64>();
+        let c_sigma = (mu + 2.0) / (n + mu + 5.0);
+        let c_one = 2.0 / ((n + 1.3) * (n + 1.3) + mu);
+        let c_mu = 2.0 * (mu - 2.0 + 1.0 / mu) / ((n + 2.0) * (n + 2.0) + mu);
+        let chi = libm::sqrt(n) * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n));
+        Self {
+            mu,
+            c_sigma,
+            damping: 1.0
+                + 2.0 * (libm::sqrt((mu - 1.0).max(0.0) / (n + 1.0)) - 1.0).max(0.0)
+                + c_sigma,
+            c_path: (4.0 + mu / n) / (n + 4.0 + 2.0 * mu / n),
+            c_one,
+            c_mu: c_mu.clamp(0.0, 1.0 - c_one),
+            chi,
+            stall: (1.4 + 2.0 / (n + 1.0)) * chi,
+            weights,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::{Purpose, Source};
+
+    fn stream(generation: u32, index: u32) -> Stream {
+        Source { seed: 2, island: 0 }.stream(generation, index, Purpose::Sampling)
+    }
+
+    /// The least of `error` after so many generations of 20 samples.
+    fn least(dimensions: usize, generations: u32, error: impl Fn(&[f64]) -> f64) -> f64 {
+        let mut cma = Cma::about(vec![0.3; dimensions]);
+        let mut least = f64::INFINITY;
+        for generation in 0..generations {
+            let sampler = cma.sampler();
+            let samples: Vec<_> = (0..20)
+                .map(|index| {
+                    let values = sampler.draw(&mut stream(generation, index));
+                    least = least.min(error(&values));
+                    let fitness = Fitness::new(-error(&values));
+                    (values, fitness)
+                })
+                .collect();
+            cma.learn(&samples, &mut stream(generation, u32::MAX));
+            assert!(cma.is_sound());
+        }
+        least
+    }
+
+    #[test]
+    fn it_finds_the_bottom_of_a_bowl_and_of_a_long_turned_valley() {
+        let sphere = |x: &[f64]| x.iter().map(|x| (x - 0.6) * (x - 0.6)).sum();
+        assert!(least(10, 150, sphere) < 1e-9);
+        // An ellipsoid with axes as 1 to 1000, along the diagonals of each pair of values.
+        let valley = |x: &[f64]| {
+            let pair = |pair: &[f64]| {
+                let [sum, difference] = [pair[0] + pair[1] - 1.1, pair[0] - pair[1] + 0.1];
+                sum * sum + 1e6 * difference * difference
+            };
+            x.chunks_exact(2).map(pair).sum()
+        };
+        assert!(least(6, 400, valley) < 1e-9);
+    }
+
+    #[test]
+    fn it_begins_again_where_all_is_worth_the_same() {
+        let mut cma = Cma::about(vec![0.5; 3]);
+        let flat: Vec<_> = (0..4).map(|i| (vec![f64::from(i) / 4.0; 3], Fitness::WORST)).collect();
+        cma.learn(&flat, &mut stream(0, 0));
+        let fresh = Cma { mean: cma.mean.clone(), ..Cma::about(vec![0.0; 3]) };
+        assert_eq!(cma, fresh);
+        assert_ne!(cma.mean, [0.5; 3]);
+    }
+
+    #[test]
+    fn a_state_that_cannot_be_is_not_sound() {
+        let sound = Cma::about(vec![0.5; 3]);
+        assert!(sound.is_sound());
+        let broken: [fn(&mut Cma); 4] = [
+            |cma| cma.mean.clear(),
+            |cma| cma.covariance.truncate(8),
+            |cma| cma.path.push(0.0),
+            |cma| cma.sigma = f64::NAN,
+        ];
+        for (number, break_it) in broken.into_iter().enumerate() {
+            let mut cma = sound.clone();
+            break_it(&mut cma);
+            assert!(!cma.is_sound(), "{number}");
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What an island knows besides its population.
+
+use super::cma::Cma;
+use super::individual::Individual;
+use super::problem::{Gene, Problem};
+use super::strategy::{Adaptation, Reproduction, Strategy};
+use crate::rng::Stream;
+use serde::{Deserialize, Serialize};
+
+/// By what the amount of point mutation is multiplied after a generation with many successes, and divided after one with
+/// few: Schwefel's factor (1981), 1 / 0.85.
+const GROWTH: f64 = 1.0 / 0.85;
+
+/// The share of offspring better than their mother at which nothing changes (Rechenberg 1973).
+const SUCCESSES: f64 = 0.2;
+
+/// The range of [`Memory::amount_scale`].
+const SCALES: (f64, f64) = (1e-9, 1e3);
+
+/// What an island has learned.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// By what the amount of point mutation is multiplied.
+    pub amount_scale: f64,
+    /// The distribution that offspring are drawn from, if they are.
+    pub cma: Option<Box<Cma>>,
+}
+
+impl Default for Memory {
+    fn default() -> Self {
+        Self { amount_scale: 1.0, cma: None }
+    }
+}
+
+impl Memory {
+    /// What is known after generation 0: a distribution begins about the centre of its better half.
+    pub fn first<G: Gene>(population: &[Individual<G>], strategy: &Strategy) -> Self {
+        let cma = (strategy.reproduction == Reproduction::CmaEs).then(|| {
+            let order = super::population::ranking(population);
+            let better: Vec<Vec<f64>> = order[..order.len().div_ceil(2)]
+                .iter()
+                .map(|&index| values(&population[index].genome))
+                .collect();
+            let dimensions = better.iter().map(Vec::len).min().unwrap_or(0);
+            let mean = |place: usize| {
+                better.iter().map(|values| values[place]).sum::<f64>() / better.len() as f64
+            };
+            Box::new(Cma::about((0..dimensions).map(mean).collect()))
+        });
+        Self { cma, ..Self::default() }
+    }
+
+    /// What is known after a generation: `brood` are the offspring of `population`. The stream is drawn from where a
+    /// distribution begins again.
+    pub fn after<P: Problem>(
+        mut self,
+        population: &[Individual<P::Gene>],
+        brood: &[Individual<P::Gene>],
+        strategy: &Strategy,
+        rng: &mut Stream,
+    ) -> Self {
+        if strategy.adaptation == Adaptation::OneFifth {
+            let successes = brood.iter().filter(|child| is_success(child, population)).count();
+            let share = successes as f64 / brood.len().max(1) as f64;
+            let factor = if share > SUCCESSES { GROWTH } else { 1.0 / GROWTH };
+            let scale =
+                if share == SUCCESSES { self.amount_scale } else { self.amount_scale * factor };
+            self.amount_scale = scale.clamp(SCALES.0, SCALES.1);
+        }
+        if let Some(cma) = &mut self.cma {
+            let samples: Vec<_> =
+                brood.iter().map(|one| (values(&one.genome), one.fitness)).collect();
+            cma.learn(&samples, rng);
+        }
+        self
+    }
+
+    /// Whether what was read from a file can be such a state, in a run with this strategy.
+    pub fn is_sound(&self, strategy: &Strategy) -> bool {
+        let learns = strategy.reproduction == Reproduction::CmaEs;
+        (SCALES.0..=SCALES.1).contains(&self.amount_scale)
+            && self.cma.is_some() == learns
+            && self.cma.as_ref().is_none_or(|cma| cma.is_sound())
+    }
+}
+
+fn is_success<G>(child: &Individual<G>, population: &[Individual<G>]) -> bool {
+    let mother = child.parents[0].and_then(|id| population.iter().find(|one| one.id == id));
+    mother.is_some_and(|mother| child.fitness > mother.fitness)
+}
+
+/// All numbers of a genome, one after the other.
+pub fn values<G: Gene>(genome: &[G]) -> Vec<f64> {
+    genome.iter().flat_map(Gene::values).copied().collect()
+}

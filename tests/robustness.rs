@@ -1,0 +1,217 @@
+//! Scores of several perturbed trials: what they come to, and that a run, its film and its verifier agree on them.
+
+use crate::support::{TINY, World};
+use islands::app::config::Config;
+use islands::archipelago::Champion;
+use islands::creature::{
+    Controller, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+};
+use islands::evolution::{Evaluation, Outcome, Problem};
+use islands::problems::{Locomotion, RobustBy, Robustness, Task};
+use islands::rng::{Purpose, Source};
+use islands::simulation::{self, Engine};
+use islands::store::{RecordLog, RunDir};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+fn genome(genes: usize, index: u32) -> Vec<Gene> {
+    let problem = Locomotion { genes, ..Locomotion::DEFAULT };
+    problem.random_genome(&mut Source { seed: 83, island: 0 }.stream(0, index, Purpose::Genesis))
+}
+
+fn robust(trials: u32, by: RobustBy, engine: Engine) -> Locomotion {
+    Locomotion { robustness: Robustness { trials, by }, engine, ..Locomotion::DEFAULT }
+}
+
+/// What a genome gets in one perturbed trial after another.
+fn one_by_one(trials: u32, genome: &[Gene], engine: Engine) -> Vec<Evaluation> {
+    let creature = Locomotion::DEFAULT.express(genome).unwrap();
+    let evaluation = |index| {
+        let trial = Task::Walk.trial().perturbed(index);
+        let score = |measured| Evaluation::scored(Task::Walk.score(&measured));
+        simulation::simulate(&creature, &trial, engine).map_or_else(Evaluation::failed, score)
+    };
+    (0..trials).map(evaluation).collect()
+}
+
+#[test]
+fn a_robust_score_is_the_worst_or_the_mean_of_the_perturbed_trials() {
+    let mut differ = 0;
+    for engine in Engine::ALL {
+        for index in 0..4 {
+            let genome = genome(3, index);
+            let scores = one_by_one(3, &genome, engine);
+            let scores: Vec<f64> = scores.iter().map(|one| one.fitness.finite().unwrap()).collect();
+            let [worst, mean] = RobustBy::ALL
+                .map(|by| robust(3, by, engine).evaluate(&genome).fitness.finite().unwrap());
+            assert_eq!(worst, scores.iter().copied().fold(f64::MAX, f64::min));
+            assert_eq!(mean, scores.iter().sum::<f64>() / 3.0);
+            assert!(worst <= mean);
+            differ += usize::from(worst < mean);
+        }
+    }
+    assert_eq!(differ, 8, "perturbations that change nothing");
+}
+
+/// A heavy trunk with an arm on top, whose motor brings it to 50 m/s in eight seconds if it gives a little more than it
+/// usually has.
+fn sling() -> Creature {
+    let cuboid = |half_m: [f64; 3], mass_kg, joint| Link {
+        shape: Shape::Cuboid { half_extents_m: half_m.into() },
+        mass_kg,
+        inertia: None,
+        joint,
+    };
+    let joint = Joint {
+        parent: 0,
+        parent_from_joint: Isometry3::translation(0.0, 0.0, 0.6),
+        joint_from_link: Isometry3::translation(1.0, 0.0, 0.0),
+        kind: JointKind::Revolute(Vector3::z()),
+    };
+    let motor = Motor {
+        waveform: Waveform::Pulse,
+        amplitude_rad_s: 1_000.0,
+        phase_start_rad: 0.0,
+        phase_step_rad: 0.0,
+        torque_nm_max: 6.25,
+    };
+    let links =
+        vec![cuboid([1.0, 1.0, 0.5], 1e5, None), cuboid([0.1, 0.1, 0.05], 1.0, Some(joint))];
+    Creature {
+        morphology: Morphology { links, root_rotation: UnitQuaternion::identity() },
+        controller: Controller { period_s: 0.1, motors: vec![None, Some(motor)] },
+    }
+}
+
+#[test]
+fn whoever_fails_in_one_perturbed_trial_has_failed() {
+    for engine in Engine::ALL {
+        let tried = |index| {
+            let trial = Task::Walk.trial().perturbed(index);
+            simulation::simulate(&sling(), &trial, engine).err()
+        };
+        let found: Vec<Option<Outcome>> = (0..4).map(tried).collect();
+        assert!(found.contains(&None) && found.contains(&Some(Outcome::TooFast)), "{found:?}");
+        for by in RobustBy::ALL {
+            let (evaluation, _) = robust(4, by, engine).film_body(&sling());
+            assert_eq!(evaluation, Evaluation::failed(Outcome::TooFast));
+        }
+        let (usual, _) = robust(0, RobustBy::Worst, engine).film_body(&sling());
+        assert_eq!(usual.outcome, Outcome::Scored);
+    }
+}
+
+#[test]
+fn a_film_has_the_score_of_all_trials_and_shows_the_one_that_is_not_perturbed() {
+    for engine in Engine::ALL {
+        let problem = robust(2, RobustBy::Mean, engine);
+        let genome = genome(3, 0);
+        let (evaluation, film) = problem.film(&genome).unwrap();
+        assert_eq!(evaluation, problem.evaluate(&genome));
+        let plain = Locomotion { robustness: Robustness::NONE, ..problem };
+        let (plainly, filmed) = plain.film(&genome).unwrap();
+        assert_eq!(film, filmed);
+        assert_ne!(evaluation, plainly);
+    }
+}
+
+#[test]
+fn a_robust_evaluation_costs_all_of_its_trials() {
+    let genome = genome(3, 0);
+    let links = Locomotion::DEFAULT.express(&genome).unwrap().morphology.links.len() as u64;
+    let trials = (0..5).map(|index| Task::Walk.trial().perturbed(index));
+    let steps: u64 = trials.map(|trial| u64::from(trial.steps())).sum();
+    let problem = robust(5, RobustBy::Worst, Engine::Rapier);
+    assert_eq!(problem.cost(&genome), links * steps);
+    assert_eq!(problem.steps(), steps);
+}
+
+/// A ball rolls on for ever, and whoever pushes it moves it by metres.
+#[test]
+fn a_ball_gains_nothing_by_being_pushed() {
+    let ball =
+        Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
+    let body = Creature {
+        morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
+        controller: Controller { period_s: 0.1, motors: vec![None] },
+    };
+    for engine in Engine::ALL {
+        let moved_m = |index| {
+            let trial = Task::Walk.trial().perturbed(index);
+            let measured = simulation::simulate(&body, &trial, engine).unwrap();
+            (measured.centre_last_m - measured.centre_first_m).xy().norm()
+        };
+        assert!((0..6).map(moved_m).fold(0.0, f64::max) > 0.3);
+        let (evaluation, _) = robust(6, RobustBy::Mean, engine).film_body(&body);
+        let score = evaluation.fitness.finite().unwrap();
+        assert!(score < 0.01, "{engine}: {score} m");
+    }
+}
+
+#[test]
+fn what_a_run_says_of_robust_champions_is_what_everybody_else_finds() {
+    let world = World::new();
+    let wish = "--engine featherstone --robustness 2 --robust-by mean";
+    let result = world.json(&format!("--n 2 --seed 3 --out run --json --view off {wish} {TINY}"));
+    let dir = RunDir::at(world.path("run"));
+    let problem = Config::read(&dir.config()).unwrap().locomotion();
+    assert_eq!(problem.robustness, Robustness { trials: 2, by: RobustBy::Mean });
+    let judge = Locomotion { engine: Engine::Rapier, ..problem };
+    for island in 0..2 {
+        let log = RecordLog::<Champion<Gene>>::read(&dir.champions(island)).unwrap();
+        for champion in &log.records {
+            let genome = &champion.individual.genome;
+            assert_eq!(champion.individual.fitness, problem.evaluate(genome).fitness);
+            assert_eq!(champion.confirmed, Some(judge.evaluate(genome).fitness));
+        }
+    }
+    // The monitor filmed them, and found what they were reported with.
+    assert!(!world.read("run/run.log").contains("WARNING"));
+    let scores = world.json(&format!("evaluate run/champion.csv --json {wish}"));
+    assert_eq!(scores["genomes"][0]["fitness"], result["best_fitness"], "{scores}");
+    let plainly = world.json("evaluate run/champion.csv --json --engine featherstone");
+    assert_ne!(plainly["genomes"][0]["fitness"], result["best_fitness"], "{plainly}");
+    let verified = world.islands("verify run --thorough --json");
+    assert_eq!(verified.code, Some(0), "{verified:?}");
+    world.assert_left_nothing();
+}
+
+#[cfg(feature = "view")]
+#[test]
+fn a_replay_shows_robust_scores_as_the_run_had_them_and_others_if_it_is_told_to() {
+    let world = World::new();
+    let wish = "--engine featherstone --robustness 2 --robust-by mean";
+    let result = world.json(&format!("--n 1 --seed 3 --out run --json --no-monitor {wish} {TINY}"));
+    let shown = |what: &str| {
+        let ending = world.islands(&format!("replay {what}"));
+        assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
+        ending.stdout.contains(&format!("{:.3} m", result["best_fitness"].as_f64().unwrap()))
+    };
+    assert!(shown("run"));
+    assert!(shown("run --ancestry"));
+    assert!(shown(&format!("run/champion.csv {wish}")));
+    assert!(!shown("run --robustness 0"));
+    assert!(!shown("run/champion.csv --engine featherstone"));
+    let said = world.refusal("replay run/champion.csv --robustness 101");
+    assert!(said.contains("robustness must be from 0 to 100"), "{said}");
+}
+
+#[test]
+fn a_run_goes_on_with_the_robustness_that_it_has_and_no_other() {
+    let world = World::new();
+    let run = |folder: &str, generations: u32| {
+        let settings = "--n 1 --seed 5 --population 4 --genes 2 --robustness 2 --quiet --json";
+        world.json(&format!("--out {folder} --generations {generations} --no-monitor {settings}"))
+    };
+    run("short", 2);
+    let resumed = world.json("resume short --generations 4 --no-monitor --quiet --json");
+    assert_eq!(resumed["digest"], run("long", 4)["digest"]);
+    for (wish, reason) in [
+        ("resume short --robustness 3", "robustness is 2, not 3"),
+        ("resume short --robust-by mean", "robust-by is \"worst\", not \"mean\""),
+        ("--robustness 101", "robustness must be from 0 to 100, not 101"),
+        ("evaluate short/champion.csv --robustness 101", "robustness must be from 0 to 100"),
+    ] {
+        let said = world.refusal(wish);
+        assert!(said.contains(reason), "{said}");
+    }
+}
