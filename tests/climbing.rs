@@ -5,9 +5,9 @@ use crate::support::{TINY, World};
 use islands::app::config::Config;
 use islands::archipelago::lockstep;
 use islands::creature::{Controller, Creature, Link, Morphology, Shape};
-use islands::evolution::Problem;
+use islands::evolution::{Evaluation, Problem};
 use islands::formats::terrain;
-use islands::problems::{Locomotion, Task};
+use islands::problems::{Locomotion, RobustBy, Robustness, Task};
 use islands::rng::{Purpose, Source};
 use islands::simulation::terrain::mountain;
 use islands::simulation::{Engine, simulate};
@@ -84,6 +84,27 @@ fn random_creatures_stay_on_the_mountain_or_are_refused_and_climb_next_to_nothin
             assert!((0.0..0.3).contains(&score), "{engine}: {score}");
         }
         assert!(refused <= 2, "{engine}: {refused} refused");
+    }
+}
+
+#[test]
+fn perturbed_trials_are_on_the_terrain() {
+    for engine in Engine::ALL {
+        let usual = Locomotion { task: Task::Climb, engine, ..Locomotion::DEFAULT };
+        let robustness = Robustness { trials: 3, by: RobustBy::Mean };
+        let robust = Locomotion { robustness, ..usual };
+        for genome in random_genomes(&usual, 4) {
+            let creature = usual.express(&genome).unwrap();
+            let scores = (0..3).map(|index| {
+                let measured = simulate(&creature, &usual.trial().perturbed(index), engine);
+                assert!(measured.iter().all(|it| !it.heights_m.is_empty()), "{engine}");
+                measured.map(|measured| Task::Climb.score(&measured))
+            });
+            let expected =
+                robustness.score(scores).map_or_else(Evaluation::failed, Evaluation::scored);
+            assert_eq!(robust.evaluate(&genome), expected, "{engine}");
+            assert_eq!(robust.film(&genome).unwrap().0, expected, "{engine}");
+        }
     }
 }
 
@@ -178,6 +199,8 @@ fn what_is_no_terrain_is_refused_before_anything_is_made() {
         ("run --terrain valley.png --terrain-start 99,0", "a body cannot begin at (99 m, 0 m)"),
         ("evaluate genome.csv --terrain genome.csv", "it has no faces"),
         ("replay genome.csv --terrain genome.csv", "it has no faces"),
+        ("run --problem sphere --terrain valley.png", "terrain means nothing to sphere"),
+        ("evaluate genome.csv --problem sphere --terrain valley.png", "terrain means nothing"),
     ] {
         let said = world.refusal(arguments);
         assert!(said.contains(says), "{said}");

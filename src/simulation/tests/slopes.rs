@@ -1,5 +1,6 @@
 //! Bodies on slopes, against walls and over them: what mechanics says, in every engine.
 
+use super::super::perturbation::Perturbation;
 use super::super::terrain::Terrain;
 use super::super::trial::{Start, Trial};
 use super::super::{Engine, simulate};
@@ -76,6 +77,30 @@ fn a_box_slides_down_a_steeper_slope_as_fast_as_friction_lets_it() {
             let down_m_s2 = GRAVITY_M_S2 * (libm::sin(steepness) - GRIP * libm::cos(steepness));
             let error = (legs_m[1] - legs_m[0]) / down_m_s2 - 1.0;
             assert!(error.abs() < 0.02, "{engine}: {error} on {slope}");
+        }
+    }
+}
+
+#[test]
+fn perturbed_friction_is_times_that_of_the_terrain() {
+    let slope = 1.2;
+    for engine in Engine::ALL {
+        for friction in [0.75, 1.1, 1.25] {
+            let perturbation = Perturbation { friction, ..Perturbation::NONE };
+            let trial = Trial { perturbation, ..ramp(slope) };
+            let mut lab = Lab::new(engine, &lying(sled(), slope), trial);
+            lab.run(0.3);
+            let mut legs_m = [0.0; 2];
+            for leg_m in &mut legs_m {
+                let from_m = lab.centre_of_mass();
+                lab.run(1.0);
+                *leg_m = (lab.centre_of_mass() - from_m).norm();
+            }
+            let steepness = libm::atan(slope);
+            let held = GRIP * friction * libm::cos(steepness);
+            let down_m_s2 = GRAVITY_M_S2 * (libm::sin(steepness) - held).max(0.0);
+            let error_m = legs_m[1] - legs_m[0] - down_m_s2;
+            assert!(error_m.abs() < 0.06, "{engine}: {error_m} m at {friction} of the friction");
         }
     }
 }
