@@ -120,6 +120,7 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
     expect![[r#"
         islands = 1
         seed = 3
+        algorithm = "ga"
         generations = 2
         population = 50
         problem = "royal-road"
@@ -127,12 +128,18 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
         block = 8
         selection = "tournament:3"
         elites = 2
+        survival = "generational"
+        crossover = "one-point"
         crossover-rate = 0.9
         point-rate = 0.015625
+        heterogeneous = false
         topology = "ring"
         migration-interval = 5
         migrants = 2
         migration-lag = 1
+        emigrants = "best"
+        replacement = "worst"
+        exchange = "sync"
         checkpoint-interval = 50
     "#]]
     .assert_eq(said);

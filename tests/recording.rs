@@ -55,7 +55,7 @@ fn a_recording_of_numbers_holds_curves_families_and_events_and_nothing_in_space(
     ));
     let recording = Recording::read(&world.path("run/recording.rrd"));
     assert_eq!(recording.generations(2), Vec::from_iter(0..=12));
-    let events = recording.texts("/events").join("\n");
+    let events = recording.events(2).join("\n");
     assert!(events.contains("new champion, -") && events.contains("migration 0 → 1"), "{events}");
     assert!(recording.chunks("/family").next().is_some());
     let entities: BTreeSet<String> = recording.rows().into_keys().map(|key| key.0).collect();

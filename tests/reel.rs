@@ -149,7 +149,7 @@ impl Recording {
         (0..islands).flat_map(|island| self.texts(&format!("/events/{island}"))).collect()
     }
 
-    pub fn texts(&self, path: &str) -> Vec<String> {
+    fn texts(&self, path: &str) -> Vec<String> {
         let texts = self.chunks(path).filter_map(|chunk| Some((chunk, component(chunk, ":text")?)));
         texts
             .flat_map(|(chunk, text)| chunk.iter_slices::<String>(text).flatten())

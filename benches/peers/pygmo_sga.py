@@ -5,7 +5,7 @@
     python3 benches/peers/pygmo_sga.py
 
 Minimises Rastrigin and Ackley of 30 variables, ten seeds each, 500,000 evaluations a run, four islands
-of 50 individuals that exchange on a ring every ten generations. A run has succeeded when its error is at most 0.01;
+of 50 individuals that exchange on a ring every five generations. A run has succeeded when its error is at most 0.01;
 how many evaluations that took is looked at each time that islands exchange. pygmo's `sga` is run as it is by default, and
 with the operators that ours has by default (simulated binary crossover, eta 15, of nine couples in ten; polynomial
 mutation, eta 20, of one variable in 30; tournaments of 3); each island keeps its best, as sga does.
@@ -30,7 +30,7 @@ BUDGET = 500_000
 TARGET = 0.01
 SEEDS = range(1, 11)
 DIMENSIONS = 30
-ISLANDS, POPULATION, INTERVAL = 4, 50, 10
+ISLANDS, POPULATION, INTERVAL = 4, 50, 5
 FUNCTIONS = ("rastrigin", "ackley")
 SETTINGS = {
     "sga, its defaults": {},

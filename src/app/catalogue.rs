@@ -119,7 +119,6 @@ impl Config {
             Kind::Creatures => Self::default(),
             Kind::Function(_) => Self {
                 generations: 1_000,
-                migration_interval: 10,
                 // Of what was tried, the least evaluations to the bottom of Rastrigin and Ackley: benches/RESULTS.md.
                 crossover: Crossover::Sbx { eta: 15.0 },
                 mutation: Mutation::Polynomial { eta: 20.0 },

@@ -79,7 +79,7 @@ impl Recorder {
             file,
             draft,
         };
-        recorder.frame(0.0, 0, |field| Some(field.reach(0.0)))?;
+        recorder.frame(0.0, 0, |field| card.has_stage.then(|| field.reach(0.0)))?;
         Ok(recorder)
     }
 

@@ -118,7 +118,7 @@ fn an_unfriendly_configuration_is_refused_with_a_sentence_and_soon() {
         islands (--n) must be from 1 to 256, not 4294967295
         grow-rate must be from 0 to 1, not NaN
         threads must be from 1 to 4096, not 9223372036854776000
-        cannot use selection: line 1: tournament takes a number from 1 to 1000"#]]
+        cannot use selection: line 1: tournament takes a whole number from 1 to 1000"#]]
     .assert_eq(&said);
     world.write("long", format!("{} = 1", "x".repeat(100_000)));
     assert!(world.refusal("--config long").len() < 600);

@@ -20,7 +20,8 @@ const NAME_MAX: usize = 200;
 const GENERATIONS_MAX: u32 = 1_000_000_000;
 
 /// Settings of a run that an experiment has no use for, and why.
-const REFUSED: [(&str, &str); 7] = [
+const REFUSED: [(&str, &str); 8] = [
+    ("exchange", "runs of an experiment are in lockstep, where nobody is faster than another"),
     ("seed", "say seeds, above all tables"),
     ("threads", "say --threads"),
     ("seed-genomes", "runs of an experiment begin with random genomes"),
