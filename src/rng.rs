@@ -41,6 +41,8 @@ pub enum Purpose {
     Immigration = 9,
     /// Who sends to whom, which is not drawn on any island.
     Topology = 10,
+    /// The rocks of a terrain, which no run's seed decides.
+    Terrain = 12,
 }
 
 /// The address of one island's randomness: everything but generation, index and purpose.

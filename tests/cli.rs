@@ -72,7 +72,7 @@ fn an_unknown_name_is_refused_with_those_that_are_known() {
         &World::new(),
         wishes,
         expect![[r#"
-            invalid value 'swim' for '--task <TASK>': unknown task “swim”: choose one of walk, travel, course
+            invalid value 'swim' for '--task <TASK>': unknown task “swim”: choose one of walk, travel, course, climb
             invalid value 'mine' for '--profile <PROFILE>': unknown profile “mine”: choose one of native, lecture, coursework
             invalid value 'luck' for '--selection <SCHEME>': unknown selection “luck”: choose roulette, sus, tournament:3, rank:1.8 or truncation:0.3
             invalid value 'rank:3' for '--selection <SCHEME>': rank takes a number from 1 to 2"#]],

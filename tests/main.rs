@@ -5,6 +5,7 @@ mod bodies;
 mod chaos;
 mod cleaning;
 mod cli;
+mod climbing;
 mod confirmation;
 mod course;
 mod determinism;

@@ -212,5 +212,5 @@ fn what_makes_no_sense_for_a_problem_is_refused_with_a_sentence() {
         cannot use run/champion.csv: the file holds 5 genes where there must be 30: give a gene a line, or another --dimensions
         task means nothing to rastrigin: leave it out, or choose another --problem"#]].assert_eq(&refusals.map(|wish| world.refusal(wish)).join("\n"));
     #[cfg(not(feature = "view"))]
-    refusals.map(|wish| world.refusal(wish));
+    let _ = refusals.map(|wish| world.refusal(wish));
 }

@@ -1,5 +1,6 @@
 //! What can be said about files of genomes and bodies.
 
+use super::terrains::TerrainArgs;
 use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Scales};
@@ -40,7 +41,7 @@ impl ChangeArgs {
 /// How a genome file is read and tried.
 #[derive(Debug, Clone, Args)]
 pub struct TrialArgs {
-    /// What the creature has to do: walk, travel or course
+    /// What the creature has to do: walk, travel, course or climb
     #[arg(long, default_value_t)]
     pub task: Task,
     #[command(flatten)]
@@ -59,6 +60,8 @@ pub struct TrialArgs {
     /// No body gets more links than this, but for profile coursework
     #[arg(long, default_value_t = 32, value_name = "L")]
     pub max_links: usize,
+    #[command(flatten)]
+    pub terrain: TerrainArgs,
 }
 
 /// Looking at a body.

@@ -43,7 +43,7 @@ pub struct Wish {
 }
 
 /// Settings that mean something to creatures alone.
-const OF_CREATURES: [&str; 12] = [
+const OF_CREATURES: [&str; 13] = [
     "task",
     "profile",
     "engine",
@@ -51,6 +51,7 @@ const OF_CREATURES: [&str; 12] = [
     "robust-by",
     "max-links",
     "scales",
+    "terrain",
     "genes",
     "max-genes",
     "shrink-rate",
@@ -246,8 +247,8 @@ mod tests {
     fn every_name_of_a_setting_that_means_nothing_to_a_problem_is_that_of_a_setting() {
         let names = Table::try_from(Config::default()).expect("it is plain data");
         for name in Kind::all().into_iter().flat_map(Kind::useless) {
-            // Scales are only said where there are some.
-            assert!(names.contains_key(name) || name == "scales", "{name}");
+            // These are only said where there are some.
+            assert!(names.contains_key(name) || ["scales", "terrain"].contains(&name), "{name}");
         }
     }
 

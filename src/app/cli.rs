@@ -6,6 +6,7 @@ use super::config::FREE;
 pub use super::experiment::ExperimentArgs;
 use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
+use super::terrains::TerrainArgs;
 use crate::choice;
 use crate::creature::Profile;
 use crate::problems::{RobustBy, Task};
@@ -27,6 +28,7 @@ use std::path::PathBuf;
   islands resume runs/walk-seed7     goes on after Ctrl-C, a crash or a reboot, to the same result
   islands evaluate champion.csv      how far does this creature get?
   islands replay runs/walk-seed7 --ancestry --view spawn
+  islands --task climb               up the course's mountain; --terrain FILE climbs another one
   islands export champion.csv --format urdf --out walker.urdf
   islands import elites/ --out genomes && islands run --profile coursework --seed-genomes genomes"
 )]
@@ -111,6 +113,8 @@ pub struct RunArgs {
     pub seed_genomes: Vec<PathBuf>,
     #[command(flatten, next_help_heading = "Genetic algorithm")]
     pub changes: ChangeArgs,
+    #[command(flatten, next_help_heading = "Terrain")]
+    pub terrain: TerrainArgs,
     /// A file that says the same as these flags, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
@@ -252,7 +256,7 @@ pub struct ReplayArgs {
     /// Whether a viewer opens: spawn or off
     #[arg(long, value_name = "HOW", default_value = "off")]
     pub view: Watching,
-    /// What the creatures have to do: walk, travel or course [default: walk, or as in the run]
+    /// What the creatures have to do: walk, travel, course or climb [default: walk, or as in the run]
     #[arg(long)]
     pub task: Option<Task>,
     /// How genes are read: native, lecture or coursework [default: native, or as in the run]
@@ -273,6 +277,8 @@ pub struct ReplayArgs {
     /// No body gets more links than this, but for profile coursework [default: 32, or as in the run]
     #[arg(long, value_name = "L")]
     pub max_links: Option<usize>,
+    #[command(flatten)]
+    pub terrain: TerrainArgs,
 }
 
 /// Watching.

@@ -8,6 +8,7 @@ pub use file::{FILE_BYTES_MAX, one_line};
 use super::Failure;
 use super::catalogue::Kind;
 use super::seeds::SeedGenomes;
+use super::terrains::KeptTerrain;
 use crate::archipelago::migration::{MIGRANTS_MAX, Migration};
 use crate::archipelago::{Algorithm, Archipelago, Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::{Profile, Scales};
@@ -134,6 +135,9 @@ pub struct Config {
     /// The genomes that the islands begin with, if not all are random: the run's folder keeps them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seed_genomes: Option<SeedGenomes>,
+    /// What creatures stand on, if not on the task's ground: the run's folder keeps it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub terrain: Option<KeptTerrain>,
     /// What launched the run: written by the program, ignored when it is read for a new run.
     pub launch: Option<Launch>,
 }
@@ -196,6 +200,7 @@ impl Default for Config {
             threads: None,
             scales: Scales::NONE,
             seed_genomes: None,
+            terrain: None,
             launch: None,
         }
     }
@@ -280,6 +285,7 @@ impl Config {
             genes: self.genes,
             links_max: self.max_links,
             engine: self.engine,
+            terrain: self.terrain.as_ref().and_then(|it| it.terrain),
             robustness: Robustness { trials: self.robustness, by: self.robust_by },
         }
     }

@@ -5,7 +5,7 @@ use super::cli::{EvaluateArgs, TrialArgs};
 use super::config::{Config, THREADS_MAX};
 use super::console::{Stopwatch, print};
 use super::subject::Subject;
-use super::{Failure, genomes};
+use super::{Failure, genomes, terrains};
 use crate::evolution::Evaluation;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
     if config.problem != Kind::Creatures {
         return config.visit(Examiner { args, config: &config });
     }
-    let problem = args.trial.problem()?;
+    let problem = config.locomotion();
     let read = |path: &PathBuf| genomes::read(path, &args.trial.read.changes);
     let genomes = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
     judge(args, &config, &problem, genomes)
@@ -127,9 +127,10 @@ fn judge<P: Subject>(
 impl EvaluateArgs {
     /// The configuration of a run whose genomes these may be.
     fn config(&self) -> Result<Config, Failure> {
-        let TrialArgs { task, read, engine, robustness, robust_by, max_links } = &self.trial;
+        let TrialArgs { task, read, engine, robustness, robust_by, max_links, terrain } =
+            &self.trial;
         let usual = Config::default_for(self.problem.wish());
-        let config = Config {
+        let mut config = Config {
             task: *task,
             profile: read.profile,
             scales: read.changes.scales(),
@@ -139,8 +140,8 @@ impl EvaluateArgs {
             max_links: *max_links,
             ..self.problem.over(usual)
         };
-        config.check_dimensions()?;
-        config.check_use()?;
+        terrains::find(&mut config, terrain, None)?;
+        config.check()?;
         Ok(config)
     }
 }

@@ -208,14 +208,15 @@ impl TrialArgs {
     /// The problem that a genome is tried with.
     ///
     /// # Errors
-    /// If more links or trials are asked for than may be, or scales that the profile has not.
+    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be
+    /// used.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, robustness: trials, robust_by, max_links } = self;
+        let Self { task, read, engine, robustness: trials, robust_by, max_links, terrain } = self;
         let robustness = robustness(*trials, *robust_by)?;
         let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
         let Reading { profile, scales } = reading;
-        let (task, engine) = (*task, *engine);
+        let (task, engine, terrain) = (*task, *engine, terrain.read()?);
         let usual = Locomotion::default();
-        Ok(Locomotion { profile, scales, task, engine, links_max, robustness, ..usual })
+        Ok(Locomotion { profile, scales, task, engine, links_max, robustness, terrain, ..usual })
     }
 }

@@ -8,7 +8,7 @@
 //! `experiment` compares settings over many runs in this process.
 //! `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left;
 //! `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export` takes them
-//! elsewhere; `seeds` are genomes that a run begins with. `pedigree` puts ancestries into words, and `viewer` opens a
+//! elsewhere; `seeds` are genomes that a run begins with, `terrains` what it stands on. `pedigree` puts ancestries into words, and `viewer` opens a
 //! viewer. `console` prints and reads the clock, `table` lays out.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
@@ -40,6 +40,7 @@ mod seeds;
 mod settings;
 pub mod subject;
 mod table;
+mod terrains;
 mod verify;
 #[cfg(feature = "view")]
 mod viewer;

@@ -30,8 +30,8 @@ pub struct SettingArgs {
     pub population: Option<usize>,
     #[command(flatten)]
     pub problem: ProblemArgs,
-    /// What creatures have to do: walk (get away), travel (keep moving) or course (as the course
-    /// program measures) [default: walk]
+    /// What creatures have to do: walk (get away), travel (keep moving), course (as the course
+    /// program measures) or climb (up its mountain) [default: walk]
     #[arg(long)]
     pub task: Option<Task>,
     /// How genes are read: native, lecture or coursework [default: native]
@@ -180,6 +180,7 @@ impl SettingArgs {
             threads: self.threads.or(config.threads),
             scales: config.scales,
             seed_genomes: config.seed_genomes,
+            terrain: config.terrain,
             launch: None,
             ..config
         }

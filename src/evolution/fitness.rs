@@ -73,7 +73,7 @@ pub enum Outcome {
     NotFinite,
     /// A part moved faster than anything healthy does.
     TooFast,
-    /// The body left the ground by more than a jump explains.
+    /// The body left the ground by more than a jump explains, or its terrain.
     Launched,
     /// The body gained more momentum than gravity and friction can give.
     Unphysical,

@@ -21,6 +21,7 @@ pub mod mjcf;
 pub mod motion;
 mod rotation;
 pub mod stl;
+pub mod terrain;
 pub mod urdf;
 pub mod vector_csv;
 mod xml;

@@ -7,7 +7,10 @@ use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
 use crate::evolution::{self, Evaluation, Outcome, Problem};
 use crate::rng::Stream;
-use crate::simulation::{self, Engine, Measurement, Perturbation, Start, Trajectory, Trial};
+use crate::simulation::terrain::mountain;
+use crate::simulation::{
+    self, Engine, Ground, Measurement, Perturbation, Start, Terrain, Trajectory, Trial,
+};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -26,11 +29,14 @@ pub enum Task {
     /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
     /// It counts the fall, and is here for comparison.
     Course,
+    /// To get up the course's mountain, or another terrain: the height that its lowest point gained and kept:
+    /// [`progress::climbed_m`].
+    Climb,
 }
 
 impl Task {
     /// Every task.
-    pub const ALL: [Task; 3] = [Task::Walk, Task::Travel, Task::Course];
+    pub const ALL: [Task; 4] = [Task::Walk, Task::Travel, Task::Course, Task::Climb];
 
     /// How bodies are tried.
     pub fn trial(self) -> Trial {
@@ -42,6 +48,7 @@ impl Task {
                 steps_per_s: 240,
                 perturbation: Perturbation::NONE,
                 gravity_m_s2: 9.81,
+                ground: Ground::Plane,
                 // Low, since a body that falls far bounces, and one that lands on a light root flies off.
                 start: Start::LeaningAt(0.1),
                 settle_s: 0.5,
@@ -52,12 +59,14 @@ impl Task {
                 steps_per_s: 240,
                 perturbation: Perturbation::NONE,
                 gravity_m_s2: 10.0,
+                ground: Ground::Plane,
                 start: Start::RootAt(2.5),
                 settle_s: 0.0,
                 scored_s: 10.0,
                 // The course refuses nobody, and a comparison must not either.
                 keeps_ledger: false,
             },
+            Task::Climb => Task::Walk.trial().on(mountain()),
         }
     }
 
@@ -66,6 +75,7 @@ impl Task {
         match self {
             Task::Walk => progress::away_m(&measured.track_m),
             Task::Travel => progress::travelled_m(&measured.track_m, measured.extent_m),
+            Task::Climb => progress::climbed_m(&measured.heights_m),
             Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
         }
     }
@@ -77,6 +87,7 @@ impl std::fmt::Display for Task {
             Task::Walk => "walk",
             Task::Travel => "travel",
             Task::Course => "course",
+            Task::Climb => "climb",
         })
     }
 }
@@ -109,6 +120,8 @@ pub struct Locomotion {
     pub engine: Engine,
     /// How often they are tried.
     pub robustness: Robustness,
+    /// What they stand on, if it is another ground than the task's.
+    pub terrain: Option<&'static Terrain>,
 }
 
 impl Default for Locomotion {
@@ -127,7 +140,14 @@ impl Locomotion {
         links_max: 32,
         engine: Engine::Rapier,
         robustness: Robustness::NONE,
+        terrain: None,
     };
+
+    /// How bodies are tried.
+    pub fn trial(&self) -> Trial {
+        let trial = self.task.trial();
+        self.terrain.map_or(trial, |terrain| trial.on(terrain))
+    }
 
     /// How genes are read.
     pub fn reading(&self) -> Reading {
@@ -158,7 +178,7 @@ impl Locomotion {
 
     /// Evaluates a body and films it, as it is with a genome.
     pub fn film_body(&self, creature: &Creature) -> (Evaluation, Trajectory) {
-        self.film_trial(creature, &self.task.trial())
+        self.film_trial(creature, &self.trial())
     }
 
     /// Evaluates a body in another trial than the task's, or in its perturbations, and films it.
@@ -174,7 +194,7 @@ impl Locomotion {
     /// Simulation steps of a genome's evaluation, of trials that run to their end; of settling, which lasts as long as
     /// it takes, one round.
     pub fn steps(&self) -> u64 {
-        let trials = self.robustness.trials(self.task.trial());
+        let trials = self.robustness.trials(self.trial());
         trials.map(|trial| u64::from(trial.steps())).sum()
     }
 
@@ -195,7 +215,7 @@ impl Locomotion {
             return Err(Outcome::TooLarge);
         }
         let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        self.score(&creature, &self.task.trial())
+        self.score(&creature, &self.trial())
     }
 }
 

@@ -7,8 +7,8 @@
 //! are scored is the longest time that can be taken away from all gaits alike, and a whole cycle of the slowest
 //! native motor.
 //!
-//! Both rules are pure functions of the track: positions of the centre of mass above the ground, evenly spaced in
-//! time, so that the body's size counts for nothing.
+//! All rules are pure functions of a track: positions of the centre of mass above the ground, or heights, evenly spaced
+//! in time, so that the body's size counts for nothing.
 
 use nalgebra::Vector2;
 
@@ -31,6 +31,25 @@ pub fn travelled_m(track_m: &[Vector2<f64>], ruler_m: f64) -> f64 {
     let Some(whole) = lengths_m.last() else { return 0.0 };
     let left = without_half(&lengths_m).map(|half| whole - (half[half.len() - 1] - half[0]));
     left.fold(*whole, |least, left| least.min(2.0 * left)).max(0.0)
+}
+
+/// The height that a body gained and kept, in metres, but at most twice what is left of it without its best half.
+///
+/// `heights_m` is where its lowest point was, at most as high as the ground below its centre: see
+/// [`Measurement::heights_m`](crate::simulation::Measurement::heights_m). So a tall body gains nothing by its size, one
+/// that rises on its toes or leans on a wall nothing by that, and one in the air is where its shadow is. A moment's
+/// height is what is left of it until the end: what slides back has kept nothing. And who is thrown up the hill, draws
+/// in a limb that hung down it, or falls over uphill has done so once, which is worth nothing without its best half.
+pub fn climbed_m(heights_m: &[f64]) -> f64 {
+    let Some(first) = heights_m.first() else { return 0.0 };
+    let mut kept_m: Vec<f64> = heights_m.iter().map(|height| height - first).collect();
+    for i in (1..kept_m.len()).rev() {
+        kept_m[i - 1] = kept_m[i - 1].min(kept_m[i]);
+    }
+    kept_m.iter_mut().for_each(|height| *height = height.max(0.0));
+    let whole = kept_m[kept_m.len() - 1];
+    let left = without_half(&kept_m).map(|half| whole - (half[half.len() - 1] - half[0]));
+    left.fold(whole, |least, left| least.min(2.0 * left))
 }
 
 /// Every run of half of a track's legs.
@@ -107,8 +126,47 @@ mod tests {
         assert!(away_m(&trembling) <= 0.8);
     }
 
+    /// Heights of 81 moments.
+    fn heights(at: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..81).map(|i| at(f64::from(i) * 0.1)).collect()
+    }
+
+    #[test]
+    fn a_steady_climb_is_worth_its_height_wherever_it_began() {
+        for start in [-3.0, 0.0, 4.0] {
+            assert_near(climbed_m(&heights(|t| start + 0.2 * t)), 1.6);
+        }
+    }
+
+    #[test]
+    fn height_that_is_not_kept_is_worth_nothing() {
+        assert_near(climbed_m(&heights(|t| t.min(8.0 - t))), 0.0);
+        assert_near(climbed_m(&heights(|t| -0.3 * t)), 0.0);
+        // What slid back halfway, and was climbed again, counts once.
+        let twice = heights(|t| if t < 4.0 { 0.2 * t } else { 0.2 * t - 0.4 });
+        assert_near(climbed_m(&twice), 0.8);
+    }
+
+    #[test]
+    fn one_event_is_no_climb_whenever_it_comes() {
+        for start in 0..=80 {
+            let start = 0.1 * f64::from(start);
+            // A limb that is drawn in, a fall uphill, a throw: over within four seconds.
+            assert_near(climbed_m(&heights(|t| ((t - start) / 4.0).clamp(0.0, 1.0))), 0.0);
+        }
+        // Who leaps again and again, and is in the air at the end.
+        assert!(climbed_m(&heights(|t| libm::sin(t * 1.9).abs())) < 0.03);
+    }
+
+    #[test]
+    fn a_climb_of_hops_is_worth_the_height_that_lasts() {
+        let hops = heights(|t| 0.2 * t + 0.3 * libm::sin(9.0 * t).abs());
+        let climbed = climbed_m(&hops);
+        assert!((1.3..1.9).contains(&climbed), "{climbed}");
+    }
+
     #[test]
     fn an_empty_track_is_worth_nothing() {
-        assert_eq!((away_m(&[]), travelled_m(&[], 1.0)), (0.0, 0.0));
+        assert_eq!((away_m(&[]), travelled_m(&[], 1.0), climbed_m(&[])), (0.0, 0.0, 0.0));
     }
 }

@@ -3,8 +3,9 @@
 //! Links that fixed joints hold together are one part: there is nothing to solve between them.
 
 use super::perturbation::Perturbation;
+use super::terrain::Ground;
 use super::trial::{LEAN_RAD, Start, Trial};
-use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Shape};
+use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Morphology, Shape};
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::f64::consts::PI;
 
@@ -92,14 +93,9 @@ impl Assembly {
             part.weigh();
         }
         assembly.centre_root();
-        let height_m = match trial.start {
-            Start::RootAt(height_m) => height_m,
-            Start::LowestAt(height_m) | Start::LeaningAt(height_m) => {
-                height_m - morphology.lowest_m()
-            }
-        };
+        let start = Translation3::from(root_start_m(&morphology, trial));
         for part in &mut assembly.parts {
-            part.world_from_part = Translation3::new(0.0, 0.0, height_m) * part.world_from_part;
+            part.world_from_part = start * part.world_from_part;
         }
         assembly
     }
@@ -162,6 +158,18 @@ impl Assembly {
             hinge.parent_from_hinge = new_from_old * hinge.parent_from_hinge;
         }
     }
+}
+
+/// Where the root begins, in metres.
+fn root_start_m(morphology: &Morphology, trial: &Trial) -> Vector3<f64> {
+    let height_m = match (trial.ground, trial.start) {
+        (Ground::Terrain(terrain), start) => return terrain.root_start_m(morphology, start),
+        (Ground::Plane, Start::RootAt(height_m)) => height_m,
+        (Ground::Plane, Start::LowestAt(height_m) | Start::LeaningAt(height_m)) => {
+            height_m - morphology.lowest_m()
+        }
+    };
+    Vector3::z() * height_m
 }
 
 /// A lean that is neither along a body's axes nor halfway between them.

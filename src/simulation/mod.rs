@@ -2,7 +2,7 @@
 //!
 //! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it. An [`Engine`] moves it through
 //! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors, [`settling`] brings
-//! it to rest before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it.
+//! it to rest on the [`terrain`] before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it.
 //! [`perturbation`] says what may differ from one trial of a body to the next.
 //! [`simulate`] runs it and returns what was measured; what of that is worth how much is for a task to say.
 
@@ -14,6 +14,7 @@ pub mod perturbation;
 mod rapier;
 pub mod settling;
 pub mod stability;
+pub mod terrain;
 #[cfg(test)]
 mod tests;
 pub mod trajectory;
@@ -22,6 +23,7 @@ pub mod world;
 
 pub use engine::Engine;
 pub use perturbation::Perturbation;
+pub use terrain::{Ground, Terrain};
 pub use trajectory::{Pose, Trajectory};
 pub use trial::{Start, Trial};
 
@@ -29,7 +31,7 @@ use crate::creature::Creature;
 use crate::evolution::Outcome;
 use actuator::Actuators;
 use assembly::Assembly;
-use featherstone::FeatherstoneWorld;
+use featherstone::{FeatherstoneWorld, Relief};
 use nalgebra::{Vector2, Vector3};
 use rapier::RapierWorld;
 use settling::Calm;
@@ -53,6 +55,9 @@ pub struct Measurement {
     /// Where the centre of mass was above the ground, in metres: when scoring began, and every
     /// [`TRACK_SAMPLE_S`] since.
     pub track_m: Vec<Vector2<f64>>,
+    /// On a terrain, the height of the body's lowest point at the same moments, but at most that of the ground below
+    /// its centre of mass, in metres: what is in the air, or leans on a wall, is no higher than what it is above.
+    pub heights_m: Vec<f64>,
     /// How far the body reaches from its root at rest, in metres.
     pub extent_m: f64,
 }
@@ -77,7 +82,7 @@ pub fn film(
     engine: Engine,
 ) -> (Result<Measurement, Outcome>, Trajectory) {
     let every = trial.steps_in(1.0 / trajectory::FRAMES_PER_S);
-    let trajectory = Trajectory::new(creature, trial.settle_s);
+    let trajectory = Trajectory::new(creature, trial.settle_s, trial.ground);
     let mut camera = Camera { trajectory, every, trial };
     let result = run(creature, trial, engine, &mut camera);
     (result, camera.trajectory)
@@ -117,14 +122,18 @@ fn run(
     observer: &mut impl Observer,
 ) -> Result<Measurement, Outcome> {
     let assembly = Assembly::new(creature, trial);
-    match engine {
-        Engine::Rapier => {
-            Attempt::new(RapierWorld::new(&assembly, trial), &assembly, creature, observer)
-                .run(creature, trial)
+    match (engine, trial.ground) {
+        (Engine::Rapier, _) => {
+            let world = RapierWorld::new(&assembly, trial);
+            Attempt::new(world, &assembly, creature, trial, observer).run(creature, trial)
         }
-        Engine::Featherstone => {
-            Attempt::new(FeatherstoneWorld::new(&assembly, trial), &assembly, creature, observer)
-                .run(creature, trial)
+        (Engine::Featherstone, Ground::Plane) => {
+            let world = FeatherstoneWorld::new(&assembly, trial);
+            Attempt::new(world, &assembly, creature, trial, observer).run(creature, trial)
+        }
+        (Engine::Featherstone, Ground::Terrain(terrain)) => {
+            let world = FeatherstoneWorld::on(Relief(terrain), &assembly, trial);
+            Attempt::new(world, &assembly, creature, trial, observer).run(creature, trial)
         }
     }
 }
@@ -136,6 +145,7 @@ pub const TRACK_SAMPLE_S: f64 = 0.1;
 struct Attempt<'a, W, O> {
     world: W,
     assembly: &'a Assembly,
+    ground: Ground,
     guard: Guard,
     step: u32,
     root_first_m: Option<Vector3<f64>>,
@@ -143,10 +153,17 @@ struct Attempt<'a, W, O> {
 }
 
 impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
-    fn new(world: W, assembly: &'a Assembly, creature: &Creature, observer: &'a mut O) -> Self {
-        let guard = Guard::new(assembly, creature);
+    fn new(
+        world: W,
+        assembly: &'a Assembly,
+        creature: &Creature,
+        trial: &Trial,
+        observer: &'a mut O,
+    ) -> Self {
+        let ground = trial.ground;
+        let guard = Guard::new(assembly, creature, ground);
         observer.observe(0, &world, assembly);
-        Self { world, assembly, guard, step: 0, root_first_m: None, observer }
+        Self { world, assembly, ground, guard, step: 0, root_first_m: None, observer }
     }
 
     fn run(mut self, creature: &Creature, trial: &Trial) -> Result<Measurement, Outcome> {
@@ -155,6 +172,8 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
         let (sample_steps, push_step) = (trial.sample_steps(), trial.push_step());
         let mut track_m = Vec::with_capacity(trial.samples() + 1);
         track_m.push(centre_first_m.xy());
+        let mut heights_m = Vec::new();
+        heights_m.extend(self.height_m(&centre_first_m));
         let mut ledger = Ledger::new(trial, sample_steps, centre_first_m, Vector3::zeros());
         let control_steps = trial.steps_in(creature.controller.period_s);
         let mut actuators = Actuators::new(&creature.controller, self.assembly);
@@ -167,6 +186,7 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
             if (scored + 1).is_multiple_of(sample_steps) {
                 let centre_m = self.centre_of_mass();
                 track_m.push(centre_m.xy());
+                heights_m.extend(self.height_m(&centre_m));
                 if trial.keeps_ledger {
                     ledger.enter(centre_m)?;
                 }
@@ -184,6 +204,7 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
             centre_last_m: self.centre_of_mass(),
             path_m: track_m.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum(),
             track_m,
+            heights_m,
             extent_m: creature.morphology.extent_m(),
         })
     }
@@ -222,7 +243,17 @@ impl<'a, W: World, O: Observer> Attempt<'a, W, O> {
     }
 
     fn check(&self) -> Result<(), Outcome> {
-        self.guard.check(&self.world, self.assembly.parts.len())
+        self.guard.check(&self.world, self.assembly.parts.len())?;
+        match self.ground {
+            Ground::Plane => Ok(()),
+            Ground::Terrain(_) => self.guard.check_place(&self.centre_of_mass()),
+        }
+    }
+
+    /// How high the body is on a terrain, given its centre of mass.
+    fn height_m(&self, centre_m: &Vector3<f64>) -> Option<f64> {
+        let below_m = self.ground.terrain()?.height_m(centre_m.x, centre_m.y);
+        Some(world::lowest_m(&self.world, self.assembly).min(below_m))
     }
 
     fn centre_of_mass(&self) -> Vector3<f64> {

@@ -91,6 +91,7 @@ fn between([from, to]: [f64; 2], rng: &mut Stream) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::terrain::Ground;
     use super::super::trial::Start;
     use super::*;
 
@@ -98,6 +99,7 @@ mod tests {
         steps_per_s: 240,
         perturbation: Perturbation::NONE,
         gravity_m_s2: 9.81,
+        ground: Ground::Plane,
         start: Start::LowestAt(0.0),
         settle_s: 0.5,
         scored_s: 8.0,

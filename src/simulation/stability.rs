@@ -1,11 +1,12 @@
 //! Guards against what no body does: a solver that blows up must not pass for an athlete.
 
 use super::assembly::Assembly;
+use super::terrain::Ground;
 use super::trial::Trial;
 use super::world::World;
 use crate::creature::Creature;
 use crate::evolution::Outcome;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// No healthy link is ever this fast, in m/s: the 99th percentile of random bodies is 6 to 7.
 const SPEED_MAX_M_S: f64 = 50.0;
@@ -15,18 +16,47 @@ const RISE_MAX_EXTENTS: f64 = 2.0;
 /// … and this much, in metres.
 const RISE_MAX_M: f64 = 1.0;
 
-/// The bounds of one body.
+/// The bounds of one body. Heights are above the ground: the highest that is no farther away than the body reaches, so
+/// that who walks over a cliff was not launched.
 pub struct Guard {
     height_max_m: f64,
+    ground: Ground,
+    extent_m: f64,
 }
 
 impl Guard {
     /// The bounds of a body that was just put together.
-    pub fn new(assembly: &Assembly, creature: &Creature) -> Self {
-        let heights = assembly.parts.iter().map(|part| part.world_from_part.translation.z);
+    pub fn new(assembly: &Assembly, creature: &Creature, ground: Ground) -> Self {
+        let extent_m = creature.morphology.extent_m();
+        let mut guard = Self { height_max_m: 0.0, ground, extent_m };
+        let positions_m = assembly.parts.iter().map(|part| part.world_from_part.translation.vector);
+        let heights = positions_m.map(|position_m| guard.height_m(&position_m));
         let start_m = heights.fold(f64::NEG_INFINITY, f64::max);
-        let rise_m = RISE_MAX_EXTENTS * creature.morphology.extent_m() + RISE_MAX_M;
-        Self { height_max_m: start_m + rise_m }
+        let rise_m = RISE_MAX_EXTENTS * extent_m + RISE_MAX_M;
+        guard.height_max_m = start_m + rise_m;
+        guard
+    }
+
+    fn height_m(&self, position_m: &Vector3<f64>) -> f64 {
+        match self.ground {
+            Ground::Plane => position_m.z,
+            Ground::Terrain(terrain) => {
+                let far = Vector2::repeat(self.extent_m);
+                position_m.z - terrain.highest_m(position_m.xy() - far, position_m.xy() + far)
+            }
+        }
+    }
+
+    /// Looks at where the centre of mass is.
+    ///
+    /// # Errors
+    /// If the body has left its terrain, over its walls or through its ground. The momentum of what has fallen through
+    /// a mesh, and of what hangs on the far side of a wall, is nobody's merit.
+    pub fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Outcome> {
+        let Ground::Terrain(terrain) = self.ground else { return Ok(()) };
+        let depth_m = terrain.height_m(centre_m.x, centre_m.y) - centre_m.z;
+        let is_there = terrain.holds(centre_m.x, centre_m.y) && depth_m < self.extent_m;
+        if is_there { Ok(()) } else { Err(Outcome::Launched) }
     }
 
     /// Looks at every part.
@@ -43,7 +73,7 @@ impl Guard {
             if speed_m_s > SPEED_MAX_M_S {
                 return Err(Outcome::TooFast);
             }
-            if position_m.z > self.height_max_m {
+            if self.height_m(&position_m) > self.height_max_m {
                 return Err(Outcome::Launched);
             }
         }
@@ -62,6 +92,10 @@ const EXCESS_MAX_M_S: f64 = 0.1;
 /// its centre of mass obeys |a_h| ≤ µ (a_z + g), whatever its motors do. An average over time keeps this true.
 /// The change of the mean velocity from one period of length T to the next is such an average, so it needs
 /// nothing but the positions that the score is made of: |Δv_h| ≤ µ (Δv_z + g T). What is above is the solver's.
+///
+/// On a terrain there is no such bound: the ground pushes along its slope, a wall along the level as hard as a body
+/// pushes it, and a mean over a tenth of a second does not tell which of them it touched. [`Trial::keeps_ledger`] is
+/// off there.
 ///
 /// No ledger of energy is kept. Native motors may do a kilowatt each (126 N·m at 8 rad/s), so that the bound would be
 /// some hundred joules a tenth of a second, more than a solver's error ever gives a body unless this ledger or the
@@ -132,6 +166,7 @@ mod tests {
             steps_per_s: 240,
             perturbation: Perturbation::NONE,
             gravity_m_s2: 9.81,
+            ground: Ground::Plane,
             start: Start::LowestAt(0.0),
             settle_s: 0.0,
             scored_s: 2.0,

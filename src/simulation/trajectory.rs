@@ -1,5 +1,6 @@
 //! What a simulation looked like: the poses of every link over time.
 
+use super::terrain::Ground;
 use crate::creature::{Creature, Shape};
 
 /// Frames a second in a film of a trial.
@@ -25,13 +26,15 @@ pub struct Trajectory {
     pub poses: Vec<Vec<Pose>>,
     /// When settling ended and scoring began, in seconds.
     pub scoring_from_s: f64,
+    /// What it stands on.
+    pub ground: Ground,
 }
 
 impl Trajectory {
     /// A film without a frame.
-    pub fn new(creature: &Creature, scoring_from_s: f64) -> Self {
+    pub fn new(creature: &Creature, scoring_from_s: f64, ground: Ground) -> Self {
         let shapes = creature.morphology.links.iter().map(|link| link.shape).collect();
-        Self { shapes, times_s: Vec::new(), poses: Vec::new(), scoring_from_s }
+        Self { shapes, times_s: Vec::new(), poses: Vec::new(), scoring_from_s, ground }
     }
 
     /// Forgets every frame.

@@ -2,6 +2,7 @@
 
 use super::TRACK_SAMPLE_S;
 use super::perturbation::Perturbation;
+use super::terrain::{Ground, Terrain};
 use std::f64::consts::TAU;
 
 /// How a body is tried.
@@ -13,6 +14,8 @@ pub struct Trial {
     pub perturbation: Perturbation,
     /// Acceleration of gravity, downwards, in m/s².
     pub gravity_m_s2: f64,
+    /// What the body stands on.
+    pub ground: Ground,
     /// Where the body begins.
     pub start: Start,
     /// A round of settling before scoring, in seconds; motors hold still meanwhile. There are as many rounds as it
@@ -39,13 +42,18 @@ pub enum Start {
 /// (a tower on its point, a wheel with its weight on top) comes down while it settles, not while it is scored.
 pub const LEAN_RAD: f64 = TAU / 72.0;
 
-/// Friction of the ground and of every link; their product acts between them. From the course.
+/// Friction of a plane and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;
 
-/// The usual coefficient of friction between the ground and a link.
+/// The usual coefficient of friction between a plane and a link.
 pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
+    /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
+    pub fn on(self, terrain: &'static Terrain) -> Self {
+        Self { ground: Ground::Terrain(terrain), keeps_ledger: false, ..self }
+    }
+
     /// The simulated time after a number of steps, in seconds.
     pub fn time_s(&self, step: u32) -> f64 {
         f64::from(step) / f64::from(self.steps_per_s)
@@ -58,7 +66,7 @@ impl Trial {
 
     /// The coefficient of friction between the ground and a link.
     pub fn grip(&self) -> f64 {
-        GRIP * self.perturbation.friction
+        GRIP * self.perturbation.friction * self.ground.roughness()
     }
 
     /// The nearest number of steps to a period, at least 1.

@@ -45,6 +45,19 @@ pub fn centre_of_mass(world: &(impl World + ?Sized), assembly: &Assembly) -> Vec
     moment / mass_kg
 }
 
+/// The height of the lowest point of the body, in metres.
+pub fn lowest_m(world: &(impl World + ?Sized), assembly: &Assembly) -> f64 {
+    let parts = assembly.parts.iter().enumerate();
+    let bottoms = parts.flat_map(|(index, part)| {
+        let world_from_part = world.world_from_part(index);
+        part.solids.iter().map(move |solid| {
+            let pose = world_from_part * solid.part_from_solid;
+            pose.translation.z - solid.shape.reach_m(&pose.rotation, &Vector3::z())
+        })
+    });
+    bottoms.fold(f64::INFINITY, f64::min)
+}
+
 /// The position of the root link, in metres.
 pub fn root_position(world: &(impl World + ?Sized), assembly: &Assembly) -> Vector3<f64> {
     link_pose(world, assembly, 0).translation.vector

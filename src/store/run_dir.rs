@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 /// ```text
 /// run.toml                                the complete configuration
 /// seed-genomes.csv                        the genomes that it began with, if they are not all random
+/// terrain.csv                             what its creatures stood on, if it was another ground than the task's
 /// run.log                                 what happened: starts, deaths, restarts, warnings
 /// metrics.csv                             a row an island and generation
 /// champion.csv  champion.urdf             the best creature ever: its genome and its body
@@ -53,8 +54,9 @@ impl RunDir {
         private().create(&self.0).map_err(StoreError::io("make the folder", &self.0))?;
         let folder = self.lock()?;
         let mut entries = std::fs::read_dir(&self.0).map_err(StoreError::io("read", &self.0))?;
-        let (partial, seeds) = (self.partial(), self.seed_genomes());
-        let is_known = |path: PathBuf| path == partial || (path == seeds && partial.exists());
+        let (partial, copies) = (self.partial(), [self.seed_genomes(), self.terrain()]);
+        let is_known =
+            |path: PathBuf| path == partial || (copies.contains(&path) && partial.exists());
         if entries.any(|entry| !entry.is_ok_and(|entry| is_known(entry.path()))) {
             let source = std::io::Error::other("it is not empty");
             return Err(StoreError::io("use", &self.0)(source));
@@ -117,6 +119,11 @@ impl RunDir {
     /// The genomes that the run began with, if they were not all random.
     pub fn seed_genomes(&self) -> PathBuf {
         self.0.join("seed-genomes.csv")
+    }
+
+    /// What the creatures stood on, if it was another ground than the task's.
+    pub fn terrain(&self) -> PathBuf {
+        self.0.join("terrain.csv")
     }
 
     /// What happened.

@@ -158,7 +158,7 @@ impl Layout {
     fn line(&mut self, card: &RunCard) -> ContainerLike {
         let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/lanes/**".to_owned()];
         contents.extend((0..card.lane_count()).flat_map(|lane| {
-            ["ground", "follow/flag"].map(|name| format!("- /islands/{lane}/{name}"))
+            ["ground/**", "follow/flag"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
         let view = Spatial3DView::new("One by one").with_origin("line/follow");
         self.stage(view.with_contents(contents), &companion())
@@ -169,10 +169,10 @@ impl Layout {
         let lanes = card.lane_count();
         let mut contents = vec!["+ /islands/**".to_owned(), "+ /race/**".to_owned()];
         contents.extend((0..lanes).flat_map(|lane| {
-            ["ground", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
+            ["ground/**", "ruler", "follow/marker"].map(|name| format!("- /islands/{lane}/{name}"))
         }));
         let view = Spatial3DView::new("Race").with_origin(race::FRAME).with_contents(contents);
-        self.stage(view, &race::eye(card.track()))
+        self.stage(view, &race::eye(card))
     }
 
     fn stage(&mut self, view: Spatial3DView, eye: &EyeControls3D) -> ContainerLike {

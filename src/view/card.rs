@@ -2,6 +2,7 @@
 
 use super::film::Pace;
 use super::scenery::Track;
+use crate::simulation::Ground;
 
 /// What a recording says of its run.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +23,8 @@ pub struct RunCard {
     pub has_family: bool,
     /// How fast generations pass in the film.
     pub pace: Pace,
+    /// What the creatures stand on.
+    pub ground: Ground,
 }
 
 /// What kind of film it is.
@@ -50,9 +53,12 @@ impl RunCard {
         self.lanes.len() as u32
     }
 
-    /// The lanes side by side.
+    /// The lanes side by side; on a terrain all in the same place.
     pub fn track(&self) -> Track {
-        Track::of(self.lane_count())
+        match self.ground {
+            Ground::Plane => Track::of(self.lane_count()),
+            Ground::Terrain(_) => Track::shared(self.lane_count()),
+        }
     }
 
     /// The lanes and their numbers.

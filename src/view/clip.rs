@@ -6,6 +6,7 @@ use super::heading::Heading;
 use super::scenery::Track;
 use super::{GENERATION, PLAYBACK, ViewError, limbs, palette, steps};
 use crate::creature::{Controller, Morphology};
+use crate::simulation::Ground;
 use crate::simulation::trajectory::Trajectory;
 use rerun::{
     Color, LineStrips3D, Points3D, Radius, RecordingStream, SerializedComponentColumn, TimeColumn,
@@ -83,7 +84,7 @@ pub fn follow(
     let path = "line/follow";
     rec.log(path, &Transform3D::from_scale(take.reach_m))?;
     let lane_y = track.lane_y(screening.clip.lane);
-    let here = take.follow.iter().map(|&[x, y]| [x, y + lane_y, take.height_m]);
+    let here = take.follow.iter().map(|&[x, y]| [x, y + lane_y, take.middle_m([x, y])]);
     let places = Transform3D::update_fields().with_many_translation(here);
     take.send(rec, path.to_owned(), &take.frames, places.columns_of_unit_batches()?)
 }
@@ -100,7 +101,7 @@ pub(super) struct Take<'a> {
     follow: Vec<[f32; 2]>,
     /// The centre of mass on the ground in each shown frame.
     pub centres: Vec<[f32; 2]>,
-    /// How high the middle of the body is on average, in metres.
+    /// How high the middle of the body is above the ground on average, in metres.
     height_m: f32,
 }
 
@@ -116,15 +117,28 @@ impl<'a> Take<'a> {
             |poses: &Vec<_>| heading.turn(super::heading::centre_of_mass(morphology, poses));
         let centres = shown().map(centre).collect();
         let times: Vec<_> = frames.iter().map(|&f| trajectory.times_s[f]).collect();
-        let height_m = mean(shown().flatten(), 2);
+        let floor_m = |[x, y]: [f32; 2]| floor_m(trajectory, [x, y]);
+        let floors_m = shown().map(|poses| floor_m(middle(poses))).sum::<f32>();
+        let height_m = mean(shown().flatten(), 2) - floors_m / f32::max(frames.len() as f32, 1.0);
         let reach_m = shown()
             .map(|poses| {
                 let [x, y] = middle(poses);
-                reach(&trajectory.shapes, poses, [x, y, height_m])
+                reach(&trajectory.shapes, poses, [x, y, floor_m([x, y]) + height_m])
             })
             .fold(0.1, f32::max);
         let follow = calm(&times, &middles);
         Self { screening, frames, heading, reach_m, follow, centres, height_m }
+    }
+
+    /// The height of the ground at a place in the lane.
+    pub fn floor_m(&self, place: [f32; 2]) -> f32 {
+        // Only planes are turned, and they are level.
+        floor_m(self.trajectory(), place)
+    }
+
+    /// The height of the body's middle at a place in the lane.
+    fn middle_m(&self, place: [f32; 2]) -> f32 {
+        self.floor_m(place) + self.height_m
     }
 
     pub fn clip(&self) -> &'a Clip {
@@ -176,7 +190,7 @@ impl<'a> Take<'a> {
         let follow = self.path("follow");
         // In a frame as large as the body every champion fills its view.
         rec.log(follow.as_str(), &Transform3D::from_scale(self.reach_m))?;
-        let here = self.follow.iter().map(|&[x, y]| [x, y, self.height_m]);
+        let here = self.follow.iter().map(|&[x, y]| [x, y, self.middle_m([x, y])]);
         let places = Transform3D::update_fields().with_many_translation(here);
         self.send(rec, follow, &self.frames, places.columns_of_unit_batches()?)?;
 
@@ -187,7 +201,10 @@ impl<'a> Take<'a> {
         let flag = above + 0.35 + FLAG_M * self.screening.lanes as f32 / self.reach_m;
         self.label(rec, "flag", short_label, flag)?;
 
-        self.floor(rec)
+        match self.trajectory().ground {
+            Ground::Plane => self.floor(rec),
+            Ground::Terrain(_) => Ok(()),
+        }
     }
 
     /// The floor below: a row whenever it moves.
@@ -221,18 +238,22 @@ impl<'a> Take<'a> {
         self.follow.iter().map(|&[x, _]| x).fold(0.0, f32::max)
     }
 
-    /// The height of the highest point that any link ever reaches.
+    /// The height of the highest point that any link ever reaches, above the ground below the body's middle.
     fn top_m(&self) -> f32 {
         let trajectory = self.trajectory();
         let tops = self.frames.iter().flat_map(|&f| {
+            let floor_m = floor_m(trajectory, middle(&trajectory.poses[f]));
             let links = trajectory.poses[f].iter().zip(&trajectory.shapes);
-            links.map(|(pose, shape)| pose.position_m[2] + half_height(shape, pose))
+            links.map(move |(pose, shape)| pose.position_m[2] + half_height(shape, pose) - floor_m)
         });
         tops.fold(0.0, f32::max)
     }
 
-    /// A line and a number on the ground at each metre from the start, as large as suits the body.
+    /// A line and a number on the ground at each metre from the start, as large as suits the body; none on a terrain.
     fn ruler(&self, rec: &RecordingStream) -> Result<(), ViewError> {
+        if self.trajectory().ground.terrain().is_some() {
+            return Ok(());
+        }
         let farthest = self.farthest_m();
         let ruler = super::ruler::Ruler {
             // Whoever blows up is soon on another planet.
@@ -260,12 +281,17 @@ impl<'a> Take<'a> {
         let mut picks = every(&times_s, TRAIL_RATE, f64::INFINITY);
         // The first row has no line, and is there from the beginning.
         picks.retain(|&pick| pick == 0 || times_s[pick] >= from_s);
-        let points: Vec<_> =
-            picks.iter().map(|&i| [self.centres[i][0], self.centres[i][1], 0.012]).collect();
+        let over = |[x, y]: [f32; 2]| [x, y, self.floor_m([x, y]) + 0.012];
+        let points: Vec<_> = picks.iter().map(|&i| over(self.centres[i])).collect();
         let strips = (3..=points.len()).map(|count| points[1..count].to_vec());
         let counts = (0..points.len()).map(|row| usize::from(row > 1));
         let rows = LineStrips3D::update_fields().with_strips(strips).columns(counts)?;
         let frames: Vec<_> = picks.iter().map(|&i| self.frames[i]).collect();
         self.send(rec, path, &frames, rows)
     }
+}
+
+/// The height of the ground of a film.
+fn floor_m(trajectory: &Trajectory, [x, y]: [f32; 2]) -> f32 {
+    trajectory.ground.height_m(f64::from(x), f64::from(y)) as f32
 }

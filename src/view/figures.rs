@@ -51,8 +51,11 @@ pub(super) fn show(
         let ([x, y], [u, v]) = (take.centres[a], take.centres[b]);
         f64::from((u - x).hypot(v - y))
     };
-    let distances =
-        picks.iter().map(|&pick| f64::from(take.centres[pick][0].hypot(take.centres[pick][1])));
+    let [from_x, from_y] = take.heading.begins();
+    let distances = picks.iter().map(|&pick| {
+        let [x, y] = take.centres[pick];
+        f64::from((x - from_x).hypot(y - from_y))
+    });
     let speeds = (0..picks.len()).map(|i| {
         let (a, b) =
             (picks[i.saturating_sub(SPAN / 2)], picks[(i + SPAN / 2).min(picks.len() - 1)]);

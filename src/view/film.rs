@@ -146,6 +146,7 @@ impl Film {
 mod tests {
     use super::*;
     use crate::creature::{Controller, Morphology};
+    use crate::simulation::Ground;
     use crate::simulation::trajectory::Trajectory;
     use nalgebra::UnitQuaternion;
 
@@ -199,8 +200,13 @@ mod tests {
     }
 
     fn clip(lane: u32, generation: u32) -> Clip {
-        let trajectory =
-            Trajectory { shapes: vec![], times_s: vec![], poses: vec![], scoring_from_s: 0.0 };
+        let trajectory = Trajectory {
+            shapes: vec![],
+            times_s: vec![],
+            poses: vec![],
+            scoring_from_s: 0.0,
+            ground: Ground::Plane,
+        };
         Clip {
             lane,
             hue: lane,

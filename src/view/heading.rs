@@ -16,19 +16,28 @@ pub struct Heading {
     start: [f32; 2],
     cos: f32,
     sin: f32,
+    begins: [f32; 2],
 }
 
 impl Heading {
-    /// The heading of a film.
+    /// The heading of a film. On a terrain everything stays where it is.
     pub fn of(morphology: &Morphology, trajectory: &Trajectory) -> Self {
-        let Trajectory { times_s, poses, scoring_from_s, .. } = trajectory;
+        let Trajectory { times_s, poses, scoring_from_s, ground, .. } = trajectory;
         let begins = times_s.partition_point(|time| time < scoring_from_s).min(poses.len() - 1);
         let [start, end] =
             [begins, poses.len() - 1].map(|frame| centre_of_mass(morphology, &poses[frame]));
+        if ground.terrain().is_some() {
+            return Self { start: [0.0; 2], cos: 1.0, sin: 0.0, begins: start };
+        }
         let [x, y] = [end[0] - start[0], end[1] - start[1]];
         let way = x.hypot(y);
         let (cos, sin) = if way < NOWHERE_M { (1.0, 0.0) } else { (x / way, y / way) };
-        Self { start, cos, sin }
+        Self { start, cos, sin, begins: [0.0; 2] }
+    }
+
+    /// Where the scored way begins, in the lane.
+    pub fn begins(&self) -> [f32; 2] {
+        self.begins
     }
 
     /// A point of the trial's ground, in the lane.

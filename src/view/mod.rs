@@ -54,6 +54,7 @@ mod figures;
 mod file;
 pub mod film;
 mod heading;
+mod landscape;
 mod limbs;
 pub mod live;
 mod packing;

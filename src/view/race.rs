@@ -1,7 +1,9 @@
 //! The view of all lanes: where it is seen from, and how far it reaches.
 
 use super::ViewError;
+use super::card::RunCard;
 use super::scenery::{LANE_AHEAD_M, Track};
+use crate::simulation::{Ground, Terrain};
 use nalgebra::{Matrix3, Vector3};
 use rerun::external::re_sdk_types::blueprint::archetypes::EyeControls3D;
 use rerun::{RecordingStream, Transform3D};
@@ -17,11 +19,19 @@ const AHEAD_MIN_M: f32 = 5.0;
 const BEHIND_M: f32 = 0.6;
 /// How high what is seen is, in metres: bodies and their labels.
 const HEIGHT_M: f32 = 1.2;
-/// Where the view stands: in a frame that grows as champions get farther.
+/// Where the view stands: in a frame that grows as champions get farther. A terrain has its size.
 pub const FRAME: &str = "race/frame";
 
+/// An eye that sees all champions.
+pub fn eye(card: &RunCard) -> EyeControls3D {
+    match card.ground {
+        Ground::Plane => marshal(card.track()),
+        Ground::Terrain(terrain) => visitor(terrain),
+    }
+}
+
 /// An eye that sees all lanes of a track from its right, a little ahead; the more lanes, the more from above.
-pub fn eye(track: Track) -> EyeControls3D {
+fn marshal(track: Track) -> EyeControls3D {
     let many = ((track.lanes.max(1) as f32).log2() / 4.0).min(1.0);
     let [ahead, above] = [22.0_f32.to_radians(), (26.0 + 30.0 * many).to_radians()];
     let look = Vector3::new(-ahead.sin() * above.cos(), ahead.cos() * above.cos(), -above.sin());
@@ -29,6 +39,18 @@ pub fn eye(track: Track) -> EyeControls3D {
     EyeControls3D::new()
         .with_position(<[f32; 3]>::from(position))
         .with_look_target(<[f32; 3]>::from(target))
+        .with_eye_up([0.0, 0.0, 1.0])
+}
+
+/// An eye outside of a terrain, on the side where creatures begin, that sees them and the middle.
+fn visitor(terrain: &Terrain) -> EyeControls3D {
+    let half_m = terrain.half_m().cast::<f32>();
+    let far_m = half_m.max();
+    let above_m = terrain.wall_top_m() as f32 + 0.45 * far_m;
+    let middle_m = terrain.height_m(0.0, 0.0) as f32;
+    EyeControls3D::new()
+        .with_position([0.75 * half_m.x, -half_m.y - 0.5 * far_m, above_m])
+        .with_look_target([0.0, -0.35 * half_m.y, 0.25 * middle_m])
         .with_eye_up([0.0, 0.0, 1.0])
 }
 
@@ -102,7 +124,10 @@ impl Field {
     /// The frame when somebody has got so far.
     pub fn reach(&mut self, reach_m: f32) -> Transform3D {
         self.farthest_m = self.farthest_m.max(reach_m.min(LANE_AHEAD_M as f32));
-        let scale = (self.farthest_m / ahead_m(self.track)).max(1.0);
+        let scale = match self.track.is_shared() {
+            true => 1.0,
+            false => (self.farthest_m / ahead_m(self.track)).max(1.0),
+        };
         Transform3D::from_translation([0.0, self.track.middle_y(), 0.0]).with_scale(scale)
     }
 }
@@ -152,5 +177,7 @@ mod tests {
         assert_eq!(scale(field.reach(0.0)), second);
         assert_ne!(scale(field.reach(1e9)), second);
         assert_eq!(scale(field.reach(2e9)), scale(field.reach(1e9)));
+        let mut arena = Field::new(Track::shared(2));
+        assert_eq!(scale(arena.reach(0.0)), scale(arena.reach(1e9)), "a terrain does not grow");
     }
 }

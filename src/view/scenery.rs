@@ -2,7 +2,8 @@
 
 use super::card::{Program, RunCard};
 use super::ruler::Ruler;
-use super::{ViewError, figures, palette, state};
+use super::{ViewError, figures, landscape, palette, state};
+use crate::simulation::{Ground, Terrain};
 use rerun::components::InterpolationMode;
 use rerun::{
     GraphEdges, GraphNodes, Mesh3D, RecordingStream, SeriesLines, TextDocument, Transform3D,
@@ -24,6 +25,9 @@ const LANE_BEHIND_M: i32 = 2;
 pub const LANE_AHEAD_M: i32 = 16;
 /// How far the floor below a champion reaches, in metres; from half of it on it fades.
 const FLOOR_M: i32 = 18;
+
+/// The colour of a terrain that all share: that of no island of the first few.
+const COMMON_HUE: u32 = 7;
 
 /// Writes everything that stands still.
 pub fn build(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
@@ -47,8 +51,16 @@ fn stages(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
         rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     }
     let track = card.track();
-    card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
-    marks(rec, track)
+    match card.ground {
+        Ground::Plane => {
+            card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
+            marks(rec, track)
+        }
+        Ground::Terrain(terrain) => {
+            card.lanes().try_for_each(|(index, lane)| arena(rec, terrain, index, lane.hue))?;
+            land(rec, terrain, "race/lanes/0", COMMON_HUE)
+        }
+    }
 }
 
 /// The place of a champion, alone and in the view of all.
@@ -75,6 +87,18 @@ fn stage(rec: &RecordingStream, track: Track, index: u32, hue: u32) -> Result<()
     Ok(rec.log_static(path, &lane)?)
 }
 
+/// The terrain of a champion alone.
+fn arena(rec: &RecordingStream, terrain: &Terrain, index: u32, hue: u32) -> Result<(), ViewError> {
+    let path = format!("islands/{index}");
+    rec.log_static(path.as_str(), &Transform3D::from_translation([0.0; 3]))?;
+    land(rec, terrain, &format!("{path}/ground"), hue)
+}
+
+fn land(rec: &RecordingStream, terrain: &Terrain, path: &str, hue: u32) -> Result<(), ViewError> {
+    rec.log_static(path, &landscape::ground(terrain, hue))?;
+    Ok(rec.log_static(format!("{path}/fence"), &landscape::fence(terrain))?)
+}
+
 /// Lanes side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Track {
@@ -88,6 +112,16 @@ impl Track {
     /// A track of so many lanes.
     pub fn of(lanes: u32) -> Self {
         Self { lanes, lane_m: if lanes < MANY { LANE_M } else { NARROW_LANE_M } }
+    }
+
+    /// Lanes in the same place.
+    pub fn shared(lanes: u32) -> Self {
+        Self { lanes, lane_m: 0.0 }
+    }
+
+    /// Whether all lanes are in the same place.
+    pub fn is_shared(self) -> bool {
+        self.lane_m == 0.0
     }
 
     /// The middle of a lane: the first one is the leftmost for who looks along them.

@@ -25,7 +25,7 @@ pub(super) fn show(rec: &RecordingStream, take: &Take<'_>) -> Result<(), ViewErr
     let reach = take.reach_m;
 
     let here = touches.iter().map(|touches| touches.iter().map(|touch| touch.at).collect());
-    let rows: Vec<(usize, Vec<[f32; 2]>)> = frames.iter().copied().zip(here).collect();
+    let rows: Vec<(usize, Vec<[f32; 3]>)> = frames.iter().copied().zip(here).collect();
     let color = palette::opaque(palette::TOUCH);
     discs(rec, take, "contacts", &rows, [0.05 * reach, 0.008 * reach], color)?;
 
@@ -46,24 +46,28 @@ pub(super) fn show(rec: &RecordingStream, take: &Take<'_>) -> Result<(), ViewErr
 struct Touch {
     link: usize,
     /// Where, in the lane.
-    at: [f32; 2],
+    at: [f32; 3],
 }
 
 fn touches(take: &Take<'_>, frame: usize) -> Vec<Touch> {
     let trajectory = take.trajectory();
     let links = trajectory.poses[frame].iter().zip(&trajectory.shapes).enumerate();
-    let lowest = links.map(|(link, (pose, shape))| (link, lowest_point(shape, pose)));
-    lowest
-        .filter(|(_, [_, _, z])| *z < TOUCH_M)
-        .map(|(link, [x, y, _])| Touch { link, at: take.heading.turn([x, y]) })
-        .collect()
+    let lowest = links.map(|(link, (pose, shape))| {
+        let [x, y, _] = pose.position_m.map(f64::from);
+        let up = trajectory.ground.normal(x, y);
+        let [x, y, z] = lowest_point(shape, pose, &up);
+        let floor_m = trajectory.ground.height_m(f64::from(x), f64::from(y)) as f32;
+        let [lane_x, lane_y] = take.heading.turn([x, y]);
+        (Touch { link, at: [lane_x, lane_y, floor_m] }, (z - floor_m) * up.z as f32)
+    });
+    lowest.filter(|(_, height_m)| *height_m < TOUCH_M).map(|(touch, _)| touch).collect()
 }
 
-/// The lowest point of a solid; of a face or an edge that lies flat, its middle.
-fn lowest_point(shape: &Shape, pose: &Pose) -> [f32; 3] {
+/// The point of a solid that is lowest over a ground that faces a way; of a face or an edge that lies flat, its middle.
+fn lowest_point(shape: &Shape, pose: &Pose, up: &Vector3<f64>) -> [f32; 3] {
     let [i, j, k, w] = pose.rotation_xyzw.map(f64::from);
     let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
-    let down = rotation.inverse_transform_vector(&-Vector3::z());
+    let down = rotation.inverse_transform_vector(&-up);
     let half = shape.half_extents_m();
     let side = |along: f64| if along.abs() < 0.04 { 0.0 } else { along.signum() };
     let local = match *shape {
@@ -88,10 +92,10 @@ fn prints(
     take: &Take<'_>,
     frames: &[usize],
     touches: &[Vec<Touch>],
-) -> Vec<(usize, Vec<[f32; 2]>)> {
+) -> Vec<(usize, Vec<[f32; 3]>)> {
     let times_s = &take.trajectory().times_s;
     let mut last_s = vec![f64::NEG_INFINITY; take.trajectory().shapes.len()];
-    let mut all: Vec<[f32; 2]> = Vec::new();
+    let mut all: Vec<[f32; 3]> = Vec::new();
     let mut rows = vec![(frames[0], Vec::new())];
     for (&frame, touches) in frames.iter().zip(touches) {
         let (now_s, before) = (times_s[frame], all.len());
@@ -113,7 +117,7 @@ fn discs(
     rec: &RecordingStream,
     take: &Take<'_>,
     name: &str,
-    rows: &[(usize, Vec<[f32; 2]>)],
+    rows: &[(usize, Vec<[f32; 3]>)],
     [radius, thickness]: [f32; 2],
     color: rerun::Color,
 ) -> Result<(), ViewError> {
@@ -125,7 +129,7 @@ fn discs(
     let columns = Cylinders3D::update_fields()
         .with_lengths(all().map(|_| thickness))
         .with_radii(all().map(|_| radius))
-        .with_centers(all().map(|&[x, y]| [x, y, thickness / 2.0]))
+        .with_centers(all().map(|&[x, y, floor_m]| [x, y, floor_m + thickness / 2.0]))
         .columns(counts)?;
     let frames: Vec<usize> = rows.iter().map(|&(frame, _)| frame).collect();
     take.send(rec, path, &frames, columns)

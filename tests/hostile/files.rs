@@ -110,7 +110,7 @@ fn an_unfriendly_configuration_is_refused_with_a_sentence_and_soon() {
         cannot use circle: Too many levels of symbolic links (os error 40); name a file such as a run's run.toml
         cannot use sparse: it is larger than 1048576 bytes; name a file such as a run's run.toml
         cannot use latin: it is not text; name a file such as a run's run.toml
-        cannot use escape: line 1: unknown variant ` [2J`, expected one of `walk`, `travel`, `course`
+        cannot use escape: line 1: unknown variant ` [2J`, expected one of `walk`, `travel`, `course`, `climb`
         cannot use line: line 1: key with no value, expected `=`
         cannot use nested: line 1: cannot recurse further; max recursion depth met
         cannot use dotted: recursion limit

@@ -17,7 +17,7 @@
 use islands::creature::{
     Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
-use islands::simulation::{self, Engine, Perturbation, Start, Trial};
+use islands::simulation::{self, Engine, Ground, Perturbation, Start, Trial};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 
@@ -103,6 +103,7 @@ impl Body {
             steps_per_s: 240,
             perturbation: Perturbation::NONE,
             gravity_m_s2: 10.0,
+            ground: Ground::Plane,
             start: Start::RootAt(self.z_lift),
             settle_s: 0.0,
             scored_s: 10.0,

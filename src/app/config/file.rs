@@ -2,6 +2,7 @@
 
 use super::super::Failure;
 use super::super::catalogue::{Kind, Wish};
+use super::super::terrains;
 use super::{Config, FREE};
 use crate::store::{RunDir, file};
 use std::path::Path;
@@ -73,7 +74,8 @@ impl Config {
         if !dir.config().exists() {
             return Err(Failure::no_run(dir));
         }
-        let config = Self::read(&dir.config())?;
+        let mut config = Self::read(&dir.config())?;
+        terrains::read(&mut config, dir)?;
         config.check()?;
         match config.is_launched() {
             true => Ok(config),

@@ -20,11 +20,12 @@ const NAME_MAX: usize = 200;
 const GENERATIONS_MAX: u32 = 1_000_000_000;
 
 /// Settings of a run that an experiment has no use for, and why.
-const REFUSED: [(&str, &str); 7] = [
+const REFUSED: [(&str, &str); 8] = [
     ("exchange", "runs of an experiment are in lockstep, where nobody is faster than another"),
     ("seed", "say seeds, above all tables"),
     ("threads", "say --threads"),
     ("seed-genomes", "runs of an experiment begin with random genomes"),
+    ("terrain", "a configuration does not say which; task = \"climb\" has one of its own"),
     ("launch", "nothing is launched"),
     ("checkpoint-interval", "runs of an experiment are kept once they have finished"),
     ("clip-every", "nothing is filmed"),
@@ -91,9 +92,11 @@ impl Setting {
     /// What its fitness means: that of settings with another aim is another thing.
     pub fn aim(&self) -> String {
         let Config { problem, dimensions, instance, rotated, block, .. } = self.config;
-        let Config { task, robustness, robust_by, .. } = self.config;
+        let Config { task, robustness, robust_by, ref terrain, .. } = self.config;
+        let terrain = terrain.as_ref().map_or("", |terrain| &terrain.digest);
         format!(
-            "{problem} {dimensions} {instance} {rotated} {block} {task} {robustness:?} {robust_by:?}"
+            "{problem} {dimensions} {instance} {rotated} {block} {task} {terrain} {robustness:?} \
+             {robust_by:?}"
         )
     }
 

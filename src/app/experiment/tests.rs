@@ -81,6 +81,13 @@ fn seeds_are_a_number_a_list_or_a_range() {
 }
 
 #[test]
+fn tasks_are_other_aims_and_climbing_needs_no_file() {
+    let plan = plan("[grid]\ntask = [\"walk\", \"climb\"]").expect("it makes sense");
+    let [walk, climb] = [0, 1].map(|index| plan.settings[index].aim());
+    assert_ne!(walk, climb);
+}
+
+#[test]
 fn a_budget_stands_beside_generations_or_instead_of_them() {
     let generations =
         |text: &str| plan(text).expect("it makes sense").settings[0].config(1).generations;
@@ -121,6 +128,7 @@ fn what_makes_no_sense_is_refused_by_its_name() {
         "[base]\nseed = 3",
         "[base]\nseed-genomes = { hash = \"\", count = 1 }",
         "[base]\nthreads = 3",
+        "[base]\nterrain = { digest = \"\" }",
         "[grid]\nmigrants = 3",
         "[grid]\nmigrants = []",
         "[grid]\nmigrants = [3, 40]",
@@ -147,6 +155,7 @@ fn what_makes_no_sense_is_refused_by_its_name() {
         [base] must not say seed: say seeds, above all tables
         [base] must not say seed-genomes: runs of an experiment begin with random genomes
         [base] must not say threads: say --threads
+        [base] must not say terrain: a configuration does not say which; task = "climb" has one of its own
         [grid] migrants must be a list of values
         [grid] migrants must be a list of values
         setting migrants=40: 40 migrants are more than there can be: take at most 24, with a population of 24

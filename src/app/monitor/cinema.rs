@@ -245,6 +245,7 @@ fn run_card<P: Subject>(config: &Config, problem: &P, clip_every: Option<u32>) -
         has_stage: P::HAS_BODIES,
         has_family: true,
         pace: Pace::for_run(config.generations, clip_every, problem.clip_s()),
+        ground: problem.ground(),
     }
 }
 

@@ -54,9 +54,10 @@ impl Studio {
                 args.robustness.unwrap_or(trials),
                 args.robust_by.unwrap_or(by),
             )?,
+            terrain: args.terrain.read()?.or(problem.terrain),
             ..problem
         };
-        let usual = problem.task.trial();
+        let usual = problem.trial();
         let trial = Trial { scored_s: args.seconds.unwrap_or(usual.scored_s), ..usual };
         Ok(Self { problem, trial })
     }

@@ -122,6 +122,7 @@ impl Reel {
             has_stage: true,
             has_family: !self.family.line.is_empty(),
             pace: Pace { slot_s: self.studio.clip_s(), generations_per_slot: 1 },
+            ground: self.studio.trial.ground,
         }
     }
 }

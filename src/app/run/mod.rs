@@ -20,8 +20,8 @@ use super::config::{self, Config};
 use super::console::{print, say};
 use super::kinship::Ear;
 use super::result::{self, Summary};
-use super::seeds;
 use super::subject::Subject;
+use super::{seeds, terrains};
 use crate::archipelago::ExchangeMode;
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, Harbour};
@@ -69,6 +69,7 @@ impl Visitor for Begin<'_> {
             Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
         })?;
         seeds::keep(&problem, &dir, &founders)?;
+        terrains::keep(&dir, &config)?;
         write_config(&dir, &config)?;
         claim.make_folders(config.islands)?;
         Launch { problem, config, dir, claim, domain, harbour, ear }.go(&args.output)
@@ -187,6 +188,7 @@ fn resolve(args: &RunArgs) -> Result<Config, Failure> {
     if !args.changes.scales.is_empty() {
         config.scales = args.changes.scales.iter().cloned().collect();
     }
+    terrains::find(&mut config, &args.terrain, args.config.as_deref())?;
     config.check()?;
     config = config.settled();
     config.check()?;
@@ -220,6 +222,12 @@ fn run_dir(out: Option<&Path>, config: &Config) -> RunDir {
     )
 }
 
+/// What of a command says on which terrain a run was, if it kept one.
+fn terrain_flag(run_dir: &Path) -> String {
+    let kept = RunDir::at(run_dir).terrain();
+    if kept.exists() { format!(" --terrain {}", kept.display()) } else { String::new() }
+}
+
 fn entropy() -> Result<u64, Failure> {
     rand::rngs::SysRng
         .try_next_u64()
@@ -251,7 +259,8 @@ fn show(summary: &Summary) {
     let genome = summary.best_genome.display();
     match (&summary.task, &summary.profile) {
         (Some(task), Some(profile)) => print(&format!(
-            "film     islands replay {genome} --task {task} --profile {profile} --out champion.rrd"
+            "film     islands replay {genome} --task {task} --profile {profile}{} --out champion.rrd",
+            terrain_flag(&summary.run_dir)
         )),
         _ => print(&format!("genome   {genome}")),
     }

@@ -10,7 +10,7 @@ use crate::evolution::{Fitness, Problem};
 use crate::formats::{genome_csv, urdf};
 use crate::problems::Locomotion;
 #[cfg(feature = "view")]
-use crate::simulation::Trajectory;
+use crate::simulation::{Ground, Trajectory};
 use std::io::{self, Write};
 #[cfg(feature = "view")]
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -58,8 +58,13 @@ impl Subject for Locomotion {
     }
 
     fn clip_s(&self) -> f64 {
-        let trial = self.task.trial();
+        let trial = self.trial();
         trial.settle_s + trial.scored_s
+    }
+
+    #[cfg(feature = "view")]
+    fn ground(&self) -> Ground {
+        self.trial().ground
     }
 
     #[cfg(feature = "view")]
@@ -69,6 +74,7 @@ impl Subject for Locomotion {
             times_s: Vec::new(),
             poses: Vec::new(),
             scoring_from_s: 0.0,
+            ground: self.ground(),
         };
         let filmed = match catch_unwind(AssertUnwindSafe(|| self.film(genome))) {
             Ok(film) => film.ok()?,

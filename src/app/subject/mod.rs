@@ -10,7 +10,7 @@ use crate::creature::{Controller, Morphology};
 use crate::evolution::Evaluation;
 use crate::evolution::{Fitness, Problem};
 #[cfg(feature = "view")]
-use crate::simulation::Trajectory;
+use crate::simulation::{Ground, Trajectory};
 use std::io::{self, Write};
 
 /// A problem that the program can run: its genomes can be written and read, and be shown if they have a body.
@@ -59,6 +59,12 @@ pub trait Subject: Problem + Clone + Send {
     /// of a run is shown.
     fn clip_s(&self) -> f64 {
         5.0
+    }
+
+    /// What bodies stand on.
+    #[cfg(feature = "view")]
+    fn ground(&self) -> Ground {
+        Ground::Plane
     }
 
     /// Evaluates a genome and films it; none if its body cannot be built.

@@ -20,7 +20,7 @@ use super::config::{Config, FILE_BYTES_MAX};
 use super::console::print;
 use super::seeds::{self, SeedGenomes};
 use super::subject::Subject;
-use super::{Failure, table};
+use super::{Failure, table, terrains};
 use crate::store::{RunDir, StoreError, file};
 use check::{Check, counted};
 use records::Records;
@@ -82,7 +82,7 @@ fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
             Err(Failure::no_run(dir))
         }
         Err(error) => Ok(Err(error.to_string())),
-        Ok(text) => Ok(launched(&text)
+        Ok(text) => Ok(launched(&text, dir)
             .map_err(|reason| format!("{} is damaged: {reason}", dir.config().display()))),
     }
 }
@@ -100,8 +100,9 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 }
 
 /// The configuration of a run that was launched.
-fn launched(text: &str) -> Result<Config, String> {
-    let config = Config::parse(text)?;
+fn launched(text: &str, dir: &RunDir) -> Result<Config, String> {
+    let mut config = Config::parse(text)?;
+    terrains::read(&mut config, dir).map_err(|failure| failure.message)?;
     config.check().map_err(|failure| failure.message)?;
     if !config.is_launched() {
         return Err("it names no seed or no launch, as that of every run does".to_owned());

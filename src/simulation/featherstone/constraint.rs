@@ -4,7 +4,7 @@
 //! root only. Rows are of like size whatever the masses are, so single precision carries them: they look for a
 //! small change of velocities that are known in double precision.
 
-use super::contact::Touch;
+use super::contact::{Facing, Level, Touch};
 use super::factor::{Factor, inverse};
 use super::spatial::Spatial;
 use nalgebra::Vector3;
@@ -52,11 +52,11 @@ pub struct MotorRow {
     inverse: f32,
 }
 
-/// A contact with the ground: three rows, along the world's axes.
+/// A contact with the ground: three rows, along the axes of the way that the ground faces.
 #[derive(Debug, Clone)]
-pub struct Contact {
+pub struct Contact<F = Level> {
     /// Where.
-    pub touch: Touch,
+    pub touch: Touch<F>,
     /// The impulse on the link so far, in newton seconds.
     pub impulse_ns: [f32; 3],
     /// The velocity that the point would have without impulses, above what it may have, in m/s; and a lane more.
@@ -65,7 +65,7 @@ pub struct Contact {
     rows: [Root; 3],
     columns: [[f32; 4]; 6],
     chain: Range<usize>,
-    /// What a unit of normal impulse does to the velocities along x and y.
+    /// What a unit of normal impulse does to the velocities along the ground.
     coupling: [f32; 2],
     inverse_normal: f32,
     /// The inverse of what impulses along x and y do to the velocities there: xx, yy, xy.
@@ -139,10 +139,10 @@ impl MotorRow {
     }
 }
 
-impl Contact {
+impl<F: Facing> Contact<F> {
     /// The rows of a point whose link would move by a velocity, with the impulse to begin with.
     pub fn new(
-        touch: Touch,
+        touch: Touch<F>,
         free: &Spatial,
         impulse_ns: [f32; 3],
         step_s: f64,
@@ -151,27 +151,19 @@ impl Contact {
     ) -> Self {
         let start = entries.len();
         let mut block = Block::default();
-        let [x, y, z] = touch.point_m.into();
-        let wrenches = [
-            [0.0, -z, y, 0.0],
-            [z, 0.0, -x, 0.0],
-            [-y, x, 0.0, 0.0],
-            [1.0, 0.0, 0.0, 0.0],
-            [0.0, 1.0, 0.0, 0.0],
-            [0.0, 0.0, 1.0, 0.0],
-        ];
+        let wrenches = touch.facing.wrenches(&touch.point_m);
         let root = factor.whiten_wrenches(touch.link, wrenches, |hinge, y| {
             block.add(&y);
             entries.push(Entry { hinge, y: y.map(|y| y as f32) });
         });
         root.iter().for_each(|y| block.add(y));
-        let mut free_m_s = free.velocity_at(&touch.point_m);
+        let mut free_m_s = touch.facing.along(free.velocity_at(&touch.point_m));
         free_m_s.z -= least_speed(touch.height_m, step_s);
         Self::of_rows(touch, &free_m_s, impulse_ns, &root, start..entries.len(), &block)
     }
 
     fn of_rows(
-        touch: Touch,
+        touch: Touch<F>,
         free_m_s: &Vector3<f64>,
         impulse_ns: [f32; 3],
         root: &[[f64; 4]; 6],
@@ -205,6 +197,12 @@ impl Contact {
         let [x, y, z] = self.correct(velocity_m_s, grip);
         self.push([x, y, z], change, entries);
         (x * x + y * y + z * z) * (self.square * self.square)
+    }
+
+    /// The impulse on the link so far, in the world, in newton seconds.
+    #[inline]
+    pub fn world_impulse_ns(&self) -> Vector3<f64> {
+        self.touch.facing.world(Vector3::from(self.impulse_ns.map(f64::from)))
     }
 
     /// Applies an impulse.

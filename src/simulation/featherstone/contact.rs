@@ -13,11 +13,94 @@ pub const POINTS_PER_SOLID: usize = 8;
 
 /// A point is looked after when it is nearer to the ground than this, now or by the end of the step, in metres. It
 /// must be more than what a step's impulses move a point by that nothing pushed before.
-const MARGIN_M: f64 = 0.002;
+pub const MARGIN_M: f64 = 0.002;
+
+/// What bodies stand on. What kind it is is decided where a world is made, so that a plane costs no more for there
+/// being others.
+pub trait Footing {
+    /// Which ways it faces.
+    type Facing: Facing;
+    /// The most touches of a solid.
+    const TOUCHES_PER_SOLID: usize;
+
+    /// Finds every point of a body that touches.
+    fn find(&self, solids: &[Surface], stance: Stance, touches: &mut Vec<Touch<Self::Facing>>);
+}
+
+/// The way that the ground faces at a point: the axes that a contact has its rows along.
+pub trait Facing: Copy + std::fmt::Debug {
+    /// Away from the ground, of length 1.
+    fn up(&self) -> Vector3<f64>;
+
+    /// How far a vector goes up.
+    fn rise(&self, vector: &Vector3<f64>) -> f64;
+
+    /// A vector along the axes of the contact, the last of which is up.
+    fn along(&self, vector: Vector3<f64>) -> Vector3<f64>;
+
+    /// A vector that is given along the axes of the contact, in the world.
+    fn world(&self, vector: Vector3<f64>) -> Vector3<f64>;
+
+    /// The wrenches of unit forces along the axes of the contact that act at a point: a row a coordinate, a column
+    /// an axis, and a column more to fill it.
+    fn wrenches(&self, point_m: &Vector3<f64>) -> [[f64; 4]; 6];
+}
+
+/// The plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane;
+
+impl Footing for Plane {
+    type Facing = Level;
+    const TOUCHES_PER_SOLID: usize = POINTS_PER_SOLID;
+
+    fn find(&self, solids: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
+        find(solids, stance, touches);
+    }
+}
+
+/// Upwards; the axes are the world's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Level;
+
+impl Facing for Level {
+    #[inline(always)]
+    fn up(&self) -> Vector3<f64> {
+        Vector3::z()
+    }
+
+    #[inline(always)]
+    fn rise(&self, vector: &Vector3<f64>) -> f64 {
+        vector.z
+    }
+
+    #[inline(always)]
+    fn along(&self, vector: Vector3<f64>) -> Vector3<f64> {
+        vector
+    }
+
+    #[inline(always)]
+    fn world(&self, vector: Vector3<f64>) -> Vector3<f64> {
+        vector
+    }
+
+    #[inline(always)]
+    fn wrenches(&self, point_m: &Vector3<f64>) -> [[f64; 4]; 6] {
+        let [x, y, z] = (*point_m).into();
+        [
+            [0.0, -z, y, 0.0],
+            [z, 0.0, -x, 0.0],
+            [-y, x, 0.0, 0.0],
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+        ]
+    }
+}
 
 /// A point near the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch {
+pub struct Touch<F = Level> {
     /// Which point of the body it is: the same one in the next step has the same name.
     pub name: usize,
     /// Its link.
@@ -26,6 +109,8 @@ pub struct Touch {
     pub point_m: Vector3<f64>,
     /// Its height over the ground when the step begins, negative below it, in metres.
     pub height_m: f64,
+    /// The way that the ground faces there.
+    pub facing: F,
 }
 
 /// What there is to know of a body to find where it touches.
@@ -35,24 +120,24 @@ pub struct Stance<'a> {
     pub places: &'a [Place],
     /// Their velocities.
     pub velocities: &'a [Spatial],
-    /// The reference's height over the ground, half a step ahead, in metres.
-    pub height_m: f64,
+    /// The reference, half a step ahead, in metres.
+    pub reference_m: Vector3<f64>,
     /// The time of a step, in seconds.
     pub step_s: f64,
 }
 
-/// Finds every point of a body that touches.
-pub fn find(surfaces: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
+fn find(surfaces: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
     touches.clear();
     for (index, surface) in surfaces.iter().enumerate() {
         let place = &stance.places[surface.link];
         let centre_m = place.origin_m + place.rotation * surface.centre_m;
         if stance.can_reach(surface, &centre_m) {
-            let (points, count) = surface.points(&centre_m, &place.rotation);
+            let (points, count) = surface.points(&centre_m, &place.rotation, &Level);
             for (corner, point_m) in points.iter().enumerate().take(count) {
                 if let Some(height_m) = stance.touches(surface.link, point_m) {
                     let name = index * POINTS_PER_SOLID + corner;
-                    touches.push(Touch { name, link: surface.link, point_m: *point_m, height_m });
+                    let (link, point_m) = (surface.link, *point_m);
+                    touches.push(Touch { name, link, point_m, height_m, facing: Level });
                 }
             }
         }
@@ -65,46 +150,34 @@ impl Stance<'_> {
         let velocity = &self.velocities[surface.link];
         let turn_m_s = surface.reach_m * velocity.angular().norm();
         let speed_m_s = velocity.velocity_at(centre_m).z.abs() + turn_m_s;
-        let lowest_m = self.height_m + centre_m.z - surface.reach_m;
+        let lowest_m = self.reference_m.z + centre_m.z - surface.reach_m;
         lowest_m - 0.5 * speed_m_s * self.step_s < MARGIN_M
     }
 
     /// The height of a point when the step begins, half a step before its place, if it touches by the step's end.
     fn touches(&self, link: usize, point_m: &Vector3<f64>) -> Option<f64> {
         let rise_m = self.velocities[link].velocity_at(point_m).z * self.step_s;
-        let height_m = self.height_m + point_m.z - 0.5 * rise_m;
+        let height_m = self.reference_m.z + point_m.z - 0.5 * rise_m;
         (height_m + rise_m.min(0.0) < MARGIN_M).then_some(height_m)
     }
 }
 
 impl Surface {
     /// The points that it can touch with, from the reference, and how many of them there are.
-    fn points(
+    pub fn points(
         &self,
         centre_m: &Vector3<f64>,
         rotation: &Matrix3<f64>,
+        facing: &impl Facing,
     ) -> ([Vector3<f64>; POINTS_PER_SOLID], usize) {
         let up = rotation * self.axes.column(2);
         let end_m = up * self.half_m.z;
-        let spokes_m = match self.outline {
-            Outline::Rims => {
-                let down_m = self.downwards(&up, rotation) * self.half_m.x;
-                let across_m = up.cross(&down_m);
-                [down_m, across_m, -down_m, -across_m]
-            }
-            Outline::Corners => {
-                let x_m = rotation * self.axes.column(0) * self.half_m.x;
-                let y_m = rotation * self.axes.column(1) * self.half_m.y;
-                [x_m + y_m, y_m - x_m, -x_m - y_m, x_m - y_m]
-            }
-            Outline::Ends(count) => {
-                let radius_m = self.half_m.x;
-                let lowest_m = centre_m - Vector3::z() * radius_m;
-                let to_end_m = up * (self.half_m.z - radius_m);
-                let side_m = |corner: usize| if corner == 0 { to_end_m } else { -to_end_m };
-                return (std::array::from_fn(|corner| lowest_m + side_m(corner)), count);
-            }
-        };
+        if let Outline::Ends(count) = self.outline {
+            let (lowest_m, to_end_m) = self.ends(centre_m, &up, facing);
+            let side_m = |corner: usize| if corner == 0 { to_end_m } else { -to_end_m };
+            return (std::array::from_fn(|corner| lowest_m + side_m(corner)), count);
+        }
+        let spokes_m = self.spokes(&up, rotation, facing);
         let points = std::array::from_fn(|corner| {
             let spoke_m = spokes_m[corner % 4];
             centre_m + if corner < 4 { spoke_m + end_m } else { spoke_m - end_m }
@@ -112,11 +185,44 @@ impl Surface {
         (points, POINTS_PER_SOLID)
     }
 
+    /// The lowest point of a round end, as if it were in the middle, and the way from there to its place.
+    pub fn ends(
+        &self,
+        centre_m: &Vector3<f64>,
+        up: &Vector3<f64>,
+        facing: &impl Facing,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let radius_m = self.half_m.x;
+        (centre_m - facing.up() * radius_m, up * (self.half_m.z - radius_m))
+    }
+
+    /// The ways from the axis of a box or a cylinder, which points along `up`, to four points of its outline.
+    pub fn spokes(
+        &self,
+        up: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+        facing: &impl Facing,
+    ) -> [Vector3<f64>; 4] {
+        if self.outline == Outline::Rims {
+            let down_m = self.downwards(up, rotation, facing) * self.half_m.x;
+            let across_m = up.cross(&down_m);
+            return [down_m, across_m, -down_m, -across_m];
+        }
+        let x_m = rotation * self.axes.column(0) * self.half_m.x;
+        let y_m = rotation * self.axes.column(1) * self.half_m.y;
+        [x_m + y_m, y_m - x_m, -x_m - y_m, x_m - y_m]
+    }
+
     /// The unit vector across the axis of a cylinder that points down most; one of the solid's own if the cylinder
     /// stands upright and none does.
-    fn downwards(&self, up: &Vector3<f64>, rotation: &Matrix3<f64>) -> Vector3<f64> {
+    fn downwards(
+        &self,
+        up: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+        facing: &impl Facing,
+    ) -> Vector3<f64> {
         const UPRIGHT: f64 = 1e-6;
-        let down = up * up.z - Vector3::z();
+        let down = up * facing.rise(up) - facing.up();
         let length = down.norm();
         if length > UPRIGHT { down / length } else { rotation * self.axes.column(0) }
     }

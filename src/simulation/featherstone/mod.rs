@@ -1,10 +1,10 @@
-//! Our own stepper, for what creatures are: a tree of hinges over a plane, without contacts among its links.
+//! Our own stepper, for what creatures are: a tree of hinges on the ground, without contacts among its links.
 //!
 //! All dynamics are in reduced coordinates, by recursions over articulated bodies (R. Featherstone, *Rigid Body
 //! Dynamics Algorithms*, Springer 2008; numbers of chapters, sections and equations here are this book's), in double
 //! precision. From where the body is to where it is one step later:
 //!
-//! - [`contact`] finds the points that may touch the ground;
+//! - [`contact`] finds the points that may touch the ground, on a terrain [`relief`];
 //! - [`factor`] takes the mass matrix apart and turns momenta into velocities, as if nothing held the body;
 //! - [`constraint`] and [`solver`] find the impulses of motors and contacts, which change them;
 //! - [`kinematics`] moves the body by them. [`model`] is what stays the same, [`spatial`] the algebra.
@@ -32,6 +32,7 @@ mod contact;
 mod factor;
 mod kinematics;
 mod model;
+mod relief;
 mod solver;
 mod spatial;
 #[cfg(test)]
@@ -41,11 +42,12 @@ use super::assembly::Assembly;
 use super::trial::Trial;
 use super::world::World;
 use crate::evolution::Outcome;
-use contact::{POINTS_PER_SOLID, Stance, Touch};
+use contact::{Footing, Plane, Stance, Touch};
 use factor::{Factor, Whitened};
 use kinematics::{Configuration, Place};
 use model::Model;
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
+pub use relief::Relief;
 use solver::Solver;
 use spatial::Spatial;
 
@@ -59,7 +61,8 @@ const SWING_SHARE_MAX: f64 = 0.1;
 
 /// A body in our own world. Spatial vectors are about the root's centre of mass half a step ahead, along the world's
 /// axes; all lists are by link.
-pub struct FeatherstoneWorld {
+pub struct FeatherstoneWorld<G: Footing = Plane> {
+    footing: G,
     model: Model,
     step_s: f64,
     gravity_m_s2: f64,
@@ -84,10 +87,10 @@ pub struct FeatherstoneWorld {
     motor_impulses_nms: Vec<f32>,
     /// By the point's name.
     contact_impulses_ns: Vec<[f32; 3]>,
-    touches: Vec<Touch>,
+    touches: Vec<Touch<G::Facing>>,
     factor: Factor,
     whitened: Whitened,
-    solver: Solver,
+    solver: Solver<G::Facing>,
 }
 
 /// What the motion of a hinge's axis does to the hinge.
@@ -100,15 +103,24 @@ pub struct Swing {
 }
 
 impl FeatherstoneWorld {
-    /// Puts a body into a fresh world.
+    /// Puts a body into a fresh world whose ground is a plane.
     pub fn new(assembly: &Assembly, trial: &Trial) -> Self {
+        Self::on(Plane, assembly, trial)
+    }
+}
+
+impl<G: Footing> FeatherstoneWorld<G> {
+    /// Puts a body into a fresh world with a ground.
+    pub fn on(footing: G, assembly: &Assembly, trial: &Trial) -> Self {
         let model = Model::new(assembly);
+        let touches = model.solids.len() * G::TOUCHES_PER_SOLID;
         let links = model.links.len();
         let root = assembly.parts[0].world_from_part;
         let configuration = Configuration::new(root.translation.vector, root.rotation, links);
         let mut places = vec![Place::nowhere(); links];
         configuration.place(&model, &mut places);
         Self {
+            footing,
             step_s: trial.time_s(1),
             gravity_m_s2: trial.gravity_m_s2,
             midway: configuration.clone(),
@@ -123,11 +135,11 @@ impl FeatherstoneWorld {
             targets_rad_s: vec![0.0; links],
             is_held: model.links.iter().map(|link| link.has_motor()).collect(),
             motor_impulses_nms: vec![0.0; links],
-            contact_impulses_ns: vec![[0.0; 3]; model.solids.len() * POINTS_PER_SOLID],
-            touches: Vec::with_capacity(model.solids.len() * POINTS_PER_SOLID),
+            contact_impulses_ns: vec![[0.0; 3]; touches],
+            touches: Vec::with_capacity(touches),
             factor: Factor::new(&model),
             whitened: Whitened { root: [0.0; 6], hinges: vec![0.0; links] },
-            solver: Solver::new(links, model.solids.len() * POINTS_PER_SOLID, trial.grip()),
+            solver: Solver::new(links, touches, trial.grip()),
             model,
         }
     }
@@ -136,10 +148,10 @@ impl FeatherstoneWorld {
         let stance = Stance {
             places: &self.places,
             velocities: &self.velocities,
-            height_m: self.midway.position_m.z,
+            reference_m: self.midway.position_m,
             step_s: self.step_s,
         };
-        contact::find(&self.model.solids, stance, &mut self.touches);
+        self.footing.find(&self.model.solids, stance, &mut self.touches);
     }
 
     /// Adds to the links' momenta what gravity does. Like all impulses of a step it acts half a step before the places
@@ -205,7 +217,7 @@ impl FeatherstoneWorld {
             self.transmitted[index] = self.momenta[index] - self.free_momenta[index];
         }
         for contact in &self.solver.contacts {
-            let impulse_ns = Vector3::from(contact.impulse_ns.map(f64::from));
+            let impulse_ns = contact.world_impulse_ns();
             let wrench = Spatial::of_force_at(&impulse_ns, &contact.touch.point_m);
             self.transmitted[contact.touch.link] -= wrench;
         }
@@ -286,7 +298,7 @@ impl FeatherstoneWorld {
     }
 }
 
-impl World for FeatherstoneWorld {
+impl<G: Footing> World for FeatherstoneWorld<G> {
     fn step(&mut self) -> Result<(), Outcome> {
         self.find_contacts();
         self.fall();

@@ -5,7 +5,7 @@
 //! step begins with the impulses of the one before, which at rest are right already.
 
 use super::constraint::{Change, Contact, Entry, MotorRow, Root};
-use super::contact::Touch;
+use super::contact::{Facing, Level, Touch};
 use super::factor::{Factor, Whitened};
 use super::spatial::Spatial;
 
@@ -19,20 +19,20 @@ const SWEEPS_MAX: usize = 30;
 
 /// The constraints of a step.
 #[derive(Debug, Clone)]
-pub struct Solver {
+pub struct Solver<F = Level> {
     /// The coefficient of friction between the ground and a link.
     grip: f32,
     /// The motors of loose hinges.
     pub motors: Vec<MotorRow>,
     /// The contacts.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<Contact<F>>,
     motor_entries: Vec<Entry<1>>,
     contact_entries: Vec<Entry<4>>,
     /// What impulses have changed at each link's hinge.
     hinges: Vec<f32>,
 }
 
-impl Solver {
+impl<F: Facing> Solver<F> {
     /// Room for a body of so many links that may touch the ground, with such a coefficient of friction, at so many
     /// points: a step allocates nothing.
     pub fn new(links: usize, points: usize, grip: f64) -> Self {
@@ -71,7 +71,7 @@ impl Solver {
     /// Adds a contact of a link that would move by a velocity, with the impulse to begin with.
     pub fn add_contact(
         &mut self,
-        touch: Touch,
+        touch: Touch<F>,
         free: &Spatial,
         impulse_ns: [f32; 3],
         step_s: f64,

@@ -1,6 +1,7 @@
 //! The stepper against the textbook: identities that hold between its algorithms and others for the same thing.
 
 use super::super::perturbation::Perturbation;
+use super::super::terrain::Ground;
 use super::super::trial::Start;
 use super::*;
 use crate::creature::gene::PARAMETER_COUNT;
@@ -13,6 +14,7 @@ const TRIAL: Trial = Trial {
     steps_per_s: 240,
     perturbation: Perturbation::NONE,
     gravity_m_s2: 9.81,
+    ground: Ground::Plane,
     start: Start::LowestAt(0.1),
     settle_s: 0.0,
     scored_s: 1.0,

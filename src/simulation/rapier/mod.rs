@@ -5,7 +5,10 @@
 //! Architecture invariants: this alone imports rapier; every trial builds a fresh world, since a world that was
 //! used before gives other bits; all is f64 up to this border and f32 within it.
 
+mod field;
 mod scene;
+
+pub use field::Field;
 
 use super::assembly::{Assembly, Hinge, Part, Solid};
 use super::trial::Trial;

@@ -1,6 +1,8 @@
-//! The world that a body is put into: a plane, gravity, a clock.
+//! The world that a body is put into: a ground, gravity, a clock.
 
+use super::super::terrain::Ground;
 use super::super::trial::{FRICTION, Trial};
+use super::field;
 use rapier3d::prelude::*;
 
 /// The ground belongs to this group and touches the creature; links of one creature never touch each other,
@@ -26,11 +28,23 @@ impl Scene {
             max_ccd_substeps: 0,
             ..IntegrationParameters::default()
         };
-        let ground = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));
-        let friction = FRICTION * trial.perturbation.friction;
-        let ground = Self::surface(ground, GROUND_GROUP, CREATURE_GROUP).friction(friction as f32);
-        world.insert_collider(ground, None);
+        let grounds = match trial.ground {
+            Ground::Terrain(terrain) => field::colliders(terrain),
+            Ground::Plane => {
+                let plane = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));
+                vec![Self::ground_collider(plane)]
+            }
+        };
+        let friction = FRICTION * trial.perturbation.friction * trial.ground.roughness();
+        for ground in grounds {
+            world.insert_collider(ground.friction(friction as f32), None);
+        }
         Self { world }
+    }
+
+    /// A collider of the ground, touching links alone.
+    pub(super) fn ground_collider(builder: ColliderBuilder) -> ColliderBuilder {
+        Self::surface(builder, GROUND_GROUP, CREATURE_GROUP)
     }
 
     /// The collider of a link, touching the ground alone.

@@ -2,8 +2,9 @@
 
 use super::super::Engine;
 use super::super::assembly::Assembly;
-use super::super::featherstone::FeatherstoneWorld;
+use super::super::featherstone::{FeatherstoneWorld, Relief};
 use super::super::rapier::RapierWorld;
+use super::super::terrain::Ground;
 use super::super::trial::Trial;
 use super::super::world::{self, World};
 use crate::creature::Creature;
@@ -30,9 +31,14 @@ pub struct Motion {
 impl Lab {
     pub fn new(engine: Engine, creature: &Creature, trial: Trial) -> Self {
         let assembly = Assembly::new(creature, &trial);
-        let world: Box<dyn World> = match engine {
-            Engine::Rapier => Box::new(RapierWorld::new(&assembly, &trial)),
-            Engine::Featherstone => Box::new(FeatherstoneWorld::new(&assembly, &trial)),
+        let world: Box<dyn World> = match (engine, trial.ground) {
+            (Engine::Rapier, _) => Box::new(RapierWorld::new(&assembly, &trial)),
+            (Engine::Featherstone, Ground::Plane) => {
+                Box::new(FeatherstoneWorld::new(&assembly, &trial))
+            }
+            (Engine::Featherstone, Ground::Terrain(terrain)) => {
+                Box::new(FeatherstoneWorld::on(Relief(terrain), &assembly, &trial))
+            }
         };
         Self { world, assembly, trial }
     }

@@ -13,8 +13,10 @@ mod ledger;
 mod pendulum;
 mod perturbed;
 mod sliding;
+mod slopes;
 
 use super::perturbation::Perturbation;
+use super::terrain::Ground;
 use super::trial::{Start, Trial};
 
 /// Acceleration of gravity in these tests, in m/s².
@@ -25,6 +27,7 @@ const TRIAL: Trial = Trial {
     steps_per_s: 240,
     perturbation: Perturbation::NONE,
     gravity_m_s2: GRAVITY_M_S2,
+    ground: Ground::Plane,
     start: Start::LowestAt(0.0),
     settle_s: 0.0,
     scored_s: 0.0,

@@ -4,6 +4,7 @@ use crate::archipelago::Report;
 use crate::creature::{Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform};
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Spread, Statistics};
+use crate::simulation::Ground;
 use crate::simulation::trajectory::{Pose, Trajectory};
 use crate::view::*;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -25,6 +26,7 @@ pub fn card(islands: u32) -> RunCard {
         has_stage: true,
         has_family: true,
         pace: Pace { slot_s: 0.5, generations_per_slot: 10 },
+        ground: Ground::Plane,
     }
 }
 
@@ -85,7 +87,7 @@ pub fn walker(frames: usize, pairs: usize, speed_mps: f64) -> Trajectory {
     shapes.extend(std::iter::repeat_n(leg, pairs * 2));
     let times_s: Vec<f64> = (0..frames).map(|frame| frame as f64 / 60.0).collect();
     let poses = times_s.iter().map(|&time| stride(time, pairs, half, speed_mps)).collect();
-    Trajectory { shapes, times_s, poses, scoring_from_s: 0.0 }
+    Trajectory { shapes, times_s, poses, scoring_from_s: 0.0, ground: Ground::Plane }
 }
 
 pub fn stride(time_s: f64, pairs: usize, half: Vector3<f64>, speed_mps: f64) -> Vec<Pose> {

@@ -1,0 +1,214 @@
+//! Bodies on slopes, against walls and over them: what mechanics says, in every engine.
+
+use super::super::perturbation::Perturbation;
+use super::super::terrain::Terrain;
+use super::super::trial::{Start, Trial};
+use super::super::{Engine, simulate};
+use super::bodies::{Body, Hinge};
+use super::lab::Lab;
+use super::{GRAVITY_M_S2, TRIAL};
+use crate::creature::{Creature, Inertia, Shape};
+use crate::evolution::Outcome;
+use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
+
+/// The coefficient of friction between a terrain and a link.
+const GRIP: f64 = 1.0;
+
+/// A plane of 40 m × 40 m that rises by `slope` towards the north.
+fn ramp(slope: f64) -> Trial {
+    let heights_m = (0..81 * 81).map(|i| slope * 0.5 * ((i / 81) as f64 - 40.0)).collect();
+    let ramp = Terrain::new([81, 81], 0.5, heights_m, [0.3, 0.2]).unwrap();
+    // What lies on it with its bottom 0.1 m below its middle.
+    let above_m = 0.101 * libm::hypot(1.0, slope);
+    Trial { start: Start::RootAt(above_m), ..TRIAL.on(ramp.keep()) }
+}
+
+/// A body that lies on a ramp.
+fn lying(mut creature: Creature, slope: f64) -> Creature {
+    let tilt = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), libm::atan(slope));
+    creature.morphology.root_rotation = tilt * creature.morphology.root_rotation;
+    creature
+}
+
+fn sled() -> Creature {
+    Body::of([0.25, 0.2, 0.1], 2.0).build()
+}
+
+/// A sled with a rider, so that it is jointed.
+fn ridden() -> Creature {
+    let saddle = Hinge {
+        parent: 0,
+        parent_from_hinge: Isometry3::translation(0.0, 0.0, 0.1),
+        centre_m: Vector3::z() * 0.1,
+        axis: Vector3::z(),
+        torque_nm_max: 0.0,
+    };
+    Body::of([0.25, 0.2, 0.1], 2.0).with([0.1; 3], 1.0, saddle).build()
+}
+
+#[test]
+fn a_box_stays_on_a_slope_that_is_less_steep_than_its_friction() {
+    for engine in Engine::ALL {
+        for creature in [sled(), ridden()] {
+            let mut lab = Lab::new(engine, &lying(creature, 0.8 * GRIP), ramp(0.8 * GRIP));
+            lab.run(1.0);
+            let start_m = lab.centre_of_mass();
+            lab.run(3.0);
+            let crept_m = (lab.centre_of_mass() - start_m).norm();
+            assert!(crept_m < 0.005, "{engine}: {crept_m} m");
+        }
+    }
+}
+
+#[test]
+fn a_box_slides_down_a_steeper_slope_as_fast_as_friction_lets_it() {
+    for engine in Engine::ALL {
+        for (creature, slope) in [(sled(), 1.2), (sled(), 1.6), (ridden(), 1.2), (ridden(), 1.6)] {
+            let mut lab = Lab::new(engine, &lying(creature, slope), ramp(slope));
+            lab.run(0.3);
+            // From any moment on: its speed then is not known, but the change of it is.
+            let mut legs_m = [0.0; 2];
+            for leg_m in &mut legs_m {
+                let from_m = lab.centre_of_mass();
+                lab.run(1.0);
+                *leg_m = (lab.centre_of_mass() - from_m).norm();
+            }
+            let steepness = libm::atan(slope);
+            let down_m_s2 = GRAVITY_M_S2 * (libm::sin(steepness) - GRIP * libm::cos(steepness));
+            let error = (legs_m[1] - legs_m[0]) / down_m_s2 - 1.0;
+            assert!(error.abs() < 0.02, "{engine}: {error} on {slope}");
+        }
+    }
+}
+
+#[test]
+fn perturbed_friction_is_times_that_of_the_terrain() {
+    let slope = 1.2;
+    for engine in Engine::ALL {
+        for friction in [0.75, 1.1, 1.25] {
+            let perturbation = Perturbation { friction, ..Perturbation::NONE };
+            let trial = Trial { perturbation, ..ramp(slope) };
+            let mut lab = Lab::new(engine, &lying(sled(), slope), trial);
+            lab.run(0.3);
+            let mut legs_m = [0.0; 2];
+            for leg_m in &mut legs_m {
+                let from_m = lab.centre_of_mass();
+                lab.run(1.0);
+                *leg_m = (lab.centre_of_mass() - from_m).norm();
+            }
+            let steepness = libm::atan(slope);
+            let held = GRIP * friction * libm::cos(steepness);
+            let down_m_s2 = GRAVITY_M_S2 * (libm::sin(steepness) - held).max(0.0);
+            let error_m = legs_m[1] - legs_m[0] - down_m_s2;
+            assert!(error_m.abs() < 0.06, "{engine}: {error_m} m at {friction} of the friction");
+        }
+    }
+}
+
+#[test]
+fn a_ball_rolls_down_a_slope_without_slipping() {
+    let slope = 0.3;
+    let mut ball = sled();
+    ball.morphology.links[0].shape = Shape::Sphere { radius_m: 0.1 };
+    for engine in Engine::ALL {
+        let mut lab = Lab::new(engine, &ball, ramp(slope));
+        lab.run(0.2);
+        let mut legs_m = [0.0; 2];
+        for leg_m in &mut legs_m {
+            let from_m = lab.centre_of_mass();
+            lab.run(1.0);
+            *leg_m = (lab.centre_of_mass() - from_m).norm();
+        }
+        let down_m_s2 = GRAVITY_M_S2 * libm::sin(libm::atan(slope)) / 1.4;
+        let error = (legs_m[1] - legs_m[0]) / down_m_s2 - 1.0;
+        // Our own engine brakes what rolls, on a plane too: the ground pushes half a step ahead of where weight pulls.
+        let tolerance = if engine == Engine::Rapier { 0.01 } else { 0.16 };
+        assert!(error.abs() < tolerance, "{engine}: {error}");
+    }
+}
+
+#[test]
+fn what_slides_over_edges_between_triangles_does_not_stumble() {
+    for engine in Engine::ALL {
+        let mut lab = Lab::new(engine, &sled(), ramp(0.0));
+        lab.run(0.5);
+        let start_m = lab.centre_of_mass();
+        lab.world.kick(Vector3::new(4.8, 3.6, 0.0), Vector3::zeros());
+        let mut highest_m = start_m.z;
+        for _ in 0..480 {
+            lab.step();
+            highest_m = highest_m.max(lab.centre_of_mass().z);
+        }
+        let slid_m = (lab.centre_of_mass() - start_m).xy().norm();
+        let error = slid_m / (36.0 / (2.0 * GRIP * GRAVITY_M_S2)) - 1.0;
+        assert!(error.abs() < 0.02, "{engine}: {error}");
+        assert!(highest_m - start_m.z < 0.01, "{engine}: {}", highest_m - start_m.z);
+    }
+}
+
+/// A level arena of 4 m × 4 m.
+fn arena(start_m: [f64; 2]) -> Trial {
+    let level = Terrain::new([9, 9], 0.5, vec![0.0; 81], start_m).unwrap();
+    TRIAL.on(level.keep())
+}
+
+#[test]
+fn a_wall_stops_what_runs_into_it() {
+    for engine in Engine::ALL {
+        for way in [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y()] {
+            let mut lab = Lab::new(engine, &sled(), arena([0.1, -0.1]));
+            lab.run(0.2);
+            lab.world.kick(way * 6.0, Vector3::zeros());
+            let mut farthest_m = 0.0_f64;
+            for _ in 0..240 {
+                lab.step();
+                farthest_m = farthest_m.max(lab.centre_of_mass().dot(&way));
+            }
+            let half_m = if way.x == 0.0 { 0.2 } else { 0.25 };
+            let gap_m = 2.0 - half_m - farthest_m;
+            assert!((-0.03..0.2).contains(&gap_m), "{engine}: {gap_m} m from a wall at {way}");
+        }
+    }
+}
+
+#[test]
+fn a_box_rests_on_a_wall_and_falls_off_it_when_it_is_pushed() {
+    for engine in Engine::ALL {
+        let mut lab = Lab::new(engine, &sled(), arena([1.7, 0.0]));
+        // Up, and over the wall, which is a metre high.
+        lab.world.kick(Vector3::z() * 5.0, Vector3::zeros());
+        lab.run(0.5);
+        lab.world.kick(Vector3::x() * 2.5, Vector3::zeros());
+        lab.run(0.25);
+        lab.world.halt();
+        lab.run(0.5);
+        let on_it_m = lab.centre_of_mass();
+        assert!((on_it_m.z - 1.1).abs() < 0.03, "{engine}: {on_it_m}");
+        assert!(on_it_m.x > 2.0, "{engine}: {on_it_m}");
+        lab.world.kick(Vector3::new(-4.0, 0.0, 1.0), Vector3::zeros());
+        lab.run(1.5);
+        let below_m = lab.centre_of_mass();
+        assert!(below_m.z < 0.3 && below_m.x < 1.9, "{engine}: {below_m}");
+    }
+}
+
+/// A box whose mass is beside it.
+fn lopsided(by_m: f64) -> Creature {
+    let mut body = sled();
+    body.morphology.links[0].inertia = Some(Inertia {
+        centre_m: Vector3::x() * by_m,
+        about_centre_kg_m2: Matrix3::identity() * 0.02,
+    });
+    body
+}
+
+#[test]
+fn who_is_beyond_the_walls_is_not_scored() {
+    let beside = Trial { scored_s: 1.0, ..arena([1.7, 0.0]) };
+    for engine in Engine::ALL {
+        let within = simulate(&lopsided(0.0), &beside, engine).map(|it| it.heights_m.len());
+        assert_eq!(within, Ok(11), "{engine}");
+        let beyond = simulate(&lopsided(0.6), &beside, engine);
+        assert_eq!(beyond.unwrap_err(), Outcome::Launched, "{engine}");
+    }
+}
