@@ -148,10 +148,19 @@ fn a_record_that_lacks_what_was_evolved_with_it_is_neither_gone_on_from_nor_veri
 
 #[test]
 fn a_record_that_was_changed_is_found() {
-    let world = World::new();
-    // Every immigrant counts, and no two outboxes are the same.
-    let settings = format!("{RUN} --emigrants random --replacement random");
-    world.islands(&format!("--out run --no-monitor --quiet --json {settings}"));
+    // Every immigrant counts, and no two outboxes are the same; what arrives is another thing each time all the same,
+    // and may not matter.
+    let (world, forged) = (0..20)
+        .find_map(|seed| {
+            let world = World::new();
+            let settings = format!("{RUN} --emigrants random --replacement random --seed {seed}");
+            let settings = settings.replace("--seed 43 ", "");
+            world.islands(&format!("--out run --no-monitor --quiet --json {settings}"));
+            let has_arrivals = record(&dir(&world), 0).iter().any(|it| !it.taken.is_empty());
+            let forged = forgery(&world).filter(|_| has_arrivals)?;
+            Some((world, forged))
+        })
+        .expect("some arrival matters");
     let dir = dir(&world);
     let right = record(&dir, 0);
     let (epoch, _) = right.iter().enumerate().rfind(|(_, it)| !it.taken.is_empty()).unwrap();
@@ -169,7 +178,6 @@ fn a_record_that_was_changed_is_found() {
         assert!(table.stderr.contains(expected), "{expected}: {table:?}");
         forge(&dir, 0, |records| records.clone_from(&right));
     }
-    let forged = forgery(&world);
     (0..).zip(&forged).for_each(|(island, record)| forge(&dir, island, |it| it.clone_from(record)));
     assert_eq!(world.islands("verify run").code, Some(0), "nothing contradicts it");
     let table = world.islands("verify run --thorough");
@@ -178,21 +186,24 @@ fn a_record_that_was_changed_is_found() {
 }
 
 /// The records of the run, but for one outbox, instead of which an older one of the same sender is on record, so that
-/// they lead to another digest.
-fn forgery(world: &World) -> Vec<Vec<Arrivals>> {
+/// they lead to another digest; none if no arrival matters.
+fn forgery(world: &World) -> Option<Vec<Vec<Arrivals>>> {
     let config = Config::read(&dir(world).config()).unwrap();
     let right = records(&dir(world));
     let mut forgeries = Vec::new();
-    for (island, epoch) in (0..ISLANDS).flat_map(|i| (0..right[0].len()).map(move |e| (i, e))) {
-        let mut forged = right.clone();
-        let Some((_, taken)) = forged[island as usize][epoch].taken.first_mut() else { continue };
-        *taken = taken.saturating_sub(1);
-        let is_possible =
-            check_record(&forged[island as usize], &config.archipelago(), island).is_ok();
-        forgeries.extend((is_possible && forged != right).then_some(forged));
+    let places = (0..ISLANDS).flat_map(|i| (0..right[0].len()).map(move |e| (i, e)));
+    for (island, epoch) in places {
+        for place in 0..right[island as usize][epoch].taken.len() {
+            let mut forged = right.clone();
+            let (_, taken) = &mut forged[island as usize][epoch].taken[place];
+            *taken = taken.saturating_sub(1);
+            let own = &forged[island as usize];
+            let is_possible = check_record(own, &config.archipelago(), island).is_ok();
+            forgeries.extend((is_possible && forged != right).then_some(forged));
+        }
     }
     let right = replayed(world, &right);
     let is_other = |forged: &Vec<Vec<Arrivals>>| replayed(world, forged) != right;
     // What comes late is less likely to be outlived.
-    forgeries.into_iter().rev().find(is_other).expect("some arrival matters")
+    forgeries.into_iter().rev().find(is_other)
 }
