@@ -205,19 +205,7 @@ impl std::str::FromStr for Kind {
     }
 }
 
-impl TryFrom<String> for Kind {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Kind> for String {
-    fn from(kind: Kind) -> String {
-        kind.to_string()
-    }
-}
+choice::as_text!(Kind);
 
 #[cfg(test)]
 mod tests {

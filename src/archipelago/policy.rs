@@ -140,32 +140,19 @@ impl FromStr for Emigrants {
 
     /// Reads what `Display` writes; a tournament without its number is one of three.
     fn from_str(text: &str) -> Result<Self, String> {
-        match text.split_once(':') {
-            None if text == "best" => Ok(Emigrants::Best),
-            None if text == "random" => Ok(Emigrants::Random),
-            None if text == "tournament" => Ok(Emigrants::Tournament { size: SIZE_USUAL }),
-            Some(("tournament", size)) => match size.parse() {
-                Ok(size) if (1..=SIZE_MAX).contains(&size) => Ok(Emigrants::Tournament { size }),
-                _ => Err(format!("tournament takes a number from 1 to {SIZE_MAX}")),
-            },
-            _ => Err(format!("unknown emigrants “{text}”: choose best, random or tournament:3")),
+        let scheme = choice::Scheme::of(text);
+        match scheme.name {
+            "best" => scheme.plain(Emigrants::Best),
+            "random" => scheme.plain(Emigrants::Random),
+            "tournament" => {
+                Ok(Emigrants::Tournament { size: scheme.whole(SIZE_USUAL, 1, SIZE_MAX)? })
+            }
+            _ => Err(scheme.unknown("emigrants", "best, random or tournament:3")),
         }
     }
 }
 
-impl TryFrom<String> for Emigrants {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Emigrants> for String {
-    fn from(emigrants: Emigrants) -> String {
-        emigrants.to_string()
-    }
-}
+choice::as_text!(Emigrants);
 
 impl fmt::Display for Replacement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,5 +1,6 @@
 //! Who sends migrants to whom.
 
+use crate::choice;
 use crate::rng::{Purpose, Source};
 use rand::RngExt;
 use rand::seq::SliceRandom;
@@ -218,35 +219,18 @@ impl FromStr for Topology {
 
     /// Reads what `Display` writes; a random graph without a degree has the usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        if let Some(number) = text.strip_prefix("random-regular:") {
-            let degree = number.parse().ok().filter(|degree| (1..=DEGREE_MAX).contains(degree));
-            return match degree {
-                Some(degree) => Ok(Topology::RandomRegular { degree }),
-                None => Err(format!("random-regular takes a number from 1 to {DEGREE_MAX}")),
-            };
+        let scheme = choice::Scheme::of(text);
+        match scheme.name {
+            "random-regular" => {
+                let degree = scheme.whole(USUAL_DEGREE, 1, DEGREE_MAX)?;
+                Ok(Topology::RandomRegular { degree })
+            }
+            _ => choice::named("topology", &Topology::ALL, text),
         }
-        let usual = format!("{text}:{USUAL_DEGREE}");
-        let is_it = |one: &Topology| [text, &usual].contains(&one.to_string().as_str());
-        Topology::ALL.into_iter().find(is_it).ok_or_else(|| {
-            let known: Vec<String> = Topology::ALL.iter().map(ToString::to_string).collect();
-            format!("unknown topology “{text}”: choose one of {}", known.join(", "))
-        })
     }
 }
 
-impl TryFrom<String> for Topology {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Self, String> {
-        text.parse()
-    }
-}
-
-impl From<Topology> for String {
-    fn from(topology: Topology) -> String {
-        topology.to_string()
-    }
-}
+choice::as_text!(Topology);
 
 #[cfg(test)]
 mod tests {
