@@ -90,7 +90,7 @@ fn random_creatures_stay_on_the_mountain_or_are_refused_and_climb_next_to_nothin
 #[test]
 fn perturbed_trials_are_on_the_terrain() {
     for engine in Engine::ALL {
-        let usual = Locomotion { task: Task::Climb, engine, ..Locomotion::DEFAULT };
+        let usual = Locomotion { terrain: Some(mountain()), engine, ..Locomotion::DEFAULT };
         let robustness = Robustness { trials: 3, by: RobustBy::Mean };
         let robust = Locomotion { robustness, ..usual };
         for genome in random_genomes(&usual, 4) {
@@ -98,7 +98,7 @@ fn perturbed_trials_are_on_the_terrain() {
             let scores = (0..3).map(|index| {
                 let measured = simulate(&creature, &usual.trial().perturbed(index), engine);
                 assert!(measured.iter().all(|it| !it.heights_m.is_empty()), "{engine}");
-                measured.map(|measured| Task::Climb.score(&measured))
+                measured.map(|measured| usual.task.score(&measured))
             });
             let expected =
                 robustness.score(scores).map_or_else(Evaluation::failed, Evaluation::scored);
