@@ -100,7 +100,27 @@ fn inspect_and_replay_take_a_body_that_was_exported() {
 }
 
 #[test]
-fn a_body_of_another_program_is_inspected_and_what_does_not_count_is_said() {
+fn evaluate_scores_a_body_by_the_same_bits_as_the_genome_that_it_was_written_from() {
+    let world = World::new();
+    world.write("genome.csv", fixture("genome_3.csv"));
+    let coursework = "--profile coursework";
+    let export = format!("export genome.csv {coursework} --format urdf --out body.urdf");
+    assert_eq!(world.islands(&export).code, Some(0));
+    for trial in ["--task course", "--task travel --engine featherstone --robustness 2"] {
+        let evaluate = format!("evaluate body.urdf genome.csv {coursework} {trial} --repeat 2");
+        let scores = world.json(&format!("{evaluate} --json"));
+        assert_eq!(
+            (&scores["evaluations"], &scores["genomes"][0]["genome"]),
+            (&4.into(), &"body.urdf".into())
+        );
+        let [body, genome] = [0, 1].map(|i| &scores["genomes"][i]);
+        assert_eq!(body["outcome"], "scored");
+        assert_eq!([&body["fitness"], &body["outcome"]], [&genome["fitness"], &genome["outcome"]]);
+    }
+}
+
+#[test]
+fn a_body_of_another_program_is_inspected_and_scored_and_what_does_not_count_is_said() {
     let world = World::new();
     let hand = "tests/fixtures/physics/hand/wheels2.urdf";
     fs::copy(format!("{}/{hand}", env!("CARGO_MANIFEST_DIR")), world.path("wheels.urdf")).unwrap();
@@ -118,6 +138,9 @@ fn a_body_of_another_program_is_inspected_and_what_does_not_count_is_said() {
         warning: wheels.urdf: 2 hinge(s) without a motor, since the file does not say how they are driven
     "#]]
     .assert_eq(&ending.stderr);
+    let scored = world.islands("evaluate wheels.urdf");
+    assert_eq!((scored.code, scored.stderr), (Some(0), ending.stderr));
+    assert!(scored.stdout.ends_with("wheels.urdf\n"), "{}", scored.stdout);
 }
 
 #[test]
@@ -208,7 +231,7 @@ fn what_cannot_be_exported_is_refused_with_the_reason() {
         cannot use robot.urdf: link "a" has no <collision> or <visual> that it could be made of: give it one, or fix it to its parent
         cannot build huge.csv: the body has more than 512 links, the most that profile coursework builds
         cannot use half.urdf: the links do not make one tree: there is no link
-        cannot use half.urdf: line 1 has 1 column instead of 17: write a gene a line, its numbers separated by commas"#]].assert_eq(&sentences.join("\n"));
+        cannot use half.urdf: the links do not make one tree: there is no link"#]].assert_eq(&sentences.join("\n"));
     let creature = locomotion(Profile::Coursework, 1)
         .express(&genome_csv::read(many.join("\n").as_bytes()).unwrap().genome);
     assert!(creature.is_err(), "over {COURSEWORK_LINKS_MAX} links");
