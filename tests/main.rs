@@ -20,6 +20,7 @@ mod imports;
 mod onlooker;
 mod physics;
 mod problems;
+mod readers;
 #[cfg(feature = "view")]
 mod recording;
 #[cfg(feature = "view")]

@@ -81,7 +81,7 @@ pub enum Command {
     Resume(Box<ResumeArgs>),
     /// Compare settings: a grid of them times seeds, with statistics and a plot
     Experiment(ExperimentArgs),
-    /// Score genomes
+    /// Score genomes, and bodies from URDF
     Evaluate(EvaluateArgs),
     /// Show the body that a genome or a URDF describes
     Inspect(InspectArgs),
@@ -212,8 +212,8 @@ impl std::str::FromStr for Watching {
 /// Scoring.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
-    /// Files of genomes: a gene a line, of creatures 17 numbers from 0 to 1
-    #[arg(required = true, value_name = "GENOME.csv")]
+    /// Files of genomes: a gene a line, of creatures 17 numbers from 0 to 1; of creatures also bodies
+    #[arg(required = true, value_name = "GENOME.csv|BODY.urdf")]
     pub genomes: Vec<PathBuf>,
     #[command(flatten)]
     pub problem: ProblemArgs,

@@ -1,12 +1,15 @@
-//! `islands evaluate`: scores genomes.
+//! `islands evaluate`: scores genomes and bodies.
 
 use super::catalogue::{Kind, Visitor};
 use super::cli::{EvaluateArgs, TrialArgs};
 use super::config::{Config, THREADS_MAX};
 use super::console::{Stopwatch, print};
+use super::genomes::Specimen;
 use super::subject::Subject;
 use super::{Failure, genomes, terrains};
-use crate::evolution::Evaluation;
+use crate::evolution::sharing::dearest_first;
+use crate::evolution::{Evaluation, Problem};
+use crate::problems::Locomotion;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -37,7 +40,7 @@ struct Score {
     outcome: String,
 }
 
-/// Scores the genomes in the files that are named.
+/// Scores the genomes and bodies in the files that are named.
 ///
 /// # Errors
 /// If one cannot be read.
@@ -53,9 +56,22 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         return config.visit(Examiner { args, config: &config });
     }
     let problem = config.locomotion();
-    let read = |path: &PathBuf| genomes::read(path, &args.trial.read.changes);
-    let genomes = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-    judge(args, &config, &problem, genomes)
+    let read = |path: &PathBuf| Specimen::read(path, &args.trial.read.changes);
+    let specimens: Vec<_> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
+    judge(args, &config, &problem, &specimens, |batch| try_out(&problem, batch))
+}
+
+/// Scores creatures, the dearest first.
+fn try_out(problem: &Locomotion, specimens: &[&Specimen]) -> Vec<Evaluation> {
+    let cost = |specimen: &&Specimen| match specimen {
+        Specimen::Genome(genome) => problem.cost(genome),
+        Specimen::Body(body) => body.link_names.len() as u64 * problem.steps(),
+    };
+    let costs: Vec<u64> = specimens.iter().map(cost).collect();
+    dearest_first(&costs, |index| match specimens[index] {
+        Specimen::Genome(genome) => problem.evaluate(genome),
+        Specimen::Body(body) => problem.evaluate_body(&body.creature),
+    })
 }
 
 /// Scores what has no body.
@@ -73,26 +89,29 @@ impl Visitor for Examiner<'_> {
                 Failure::usage(format!("cannot use {}: {reason}", path.display()))
             })
         };
-        let genomes = self.args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-        judge(self.args, self.config, &problem, genomes)
+        let genomes: Vec<Vec<_>> = self.args.genomes.iter().map(read).collect::<Result<_, _>>()?;
+        judge(self.args, self.config, &problem, &genomes, |batch| {
+            let batch: Vec<_> = batch.iter().map(|genome| genome.as_slice()).collect();
+            problem.evaluate_batch(&batch)
+        })
     }
 }
 
-fn judge<P: Subject>(
+fn judge<P: Subject, T: Sync>(
     args: &EvaluateArgs,
     config: &Config,
     problem: &P,
-    genomes: Vec<Vec<P::Gene>>,
+    specimens: &[T],
+    evaluate: impl Fn(&[&T]) -> Vec<Evaluation> + Sync,
 ) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
         .build()
         .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))?;
-    let batch: Vec<&[P::Gene]> =
-        std::iter::repeat_n(&genomes, args.repeat).flatten().map(Vec::as_slice).collect();
+    let batch: Vec<&T> = std::iter::repeat_n(specimens, args.repeat).flatten().collect();
 
     let watch = Stopwatch::start();
-    let evaluations = pool.install(|| problem.evaluate_batch(&batch));
+    let evaluations = pool.install(|| evaluate(&batch));
     let wall_seconds = watch.seconds();
 
     let a_second = |count: f64| count / wall_seconds.max(1e-9);

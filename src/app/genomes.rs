@@ -68,14 +68,6 @@ impl Specimen {
     }
 }
 
-/// Reads a genome, and says so if values had to be clamped.
-///
-/// # Errors
-/// One sentence that names the file and what to do.
-pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Vec<Gene>, Failure> {
-    genome(&bytes(path)?, path, dropped(&changes.drop_columns)?)
-}
-
 /// Reads a genome; what could not be read is for the caller to say.
 ///
 /// # Errors

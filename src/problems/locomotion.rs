@@ -191,6 +191,12 @@ impl Locomotion {
         (evaluation(result), trajectory)
     }
 
+    /// Evaluates a body, as [`Problem::evaluate`] does with the genome that it was grown from.
+    pub fn evaluate_body(&self, creature: &Creature) -> Evaluation {
+        let tried = catch_unwind(AssertUnwindSafe(|| self.try_body(creature)));
+        evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+    }
+
     /// Simulation steps of a genome's evaluation, of trials that run to their end; of settling, which lasts as long as
     /// it takes, one round.
     pub fn steps(&self) -> u64 {
@@ -214,8 +220,11 @@ impl Locomotion {
         if !genome.iter().all(evolution::Gene::is_valid) {
             return Err(Outcome::TooLarge);
         }
-        let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        self.score(&creature, &self.trial())
+        self.try_body(&self.express(genome).map_err(|_| Outcome::TooLarge)?)
+    }
+
+    fn try_body(&self, creature: &Creature) -> Result<f64, Outcome> {
+        self.score(creature, &self.trial())
     }
 }
 

@@ -1,10 +1,11 @@
-"""Checks what islands exports in other engines: PyBullet reads the URDF, MuJoCo the MJCF.
+"""Checks what islands exports in other programs: PyBullet and ROS's parser read the URDF, MuJoCo the MJCF.
 
     cargo build --release && python3 tests/engines/check.py
 
 The peers are installed into a virtual environment in the cache folder. It is checked that
 
-- 200 random genomes and those of the course are bodies of the same links, masses, inertias and poses there;
+- 200 random genomes and those of the course are bodies of the same links, masses, inertias and poses there, and valid
+  by the rules of ROS's parser;
 - bodies whose motion is not chaotic move alike: within 2 % in free fall, as a pendulum, with a driven hinge in the
   air, and sliding to rest;
 
@@ -49,7 +50,7 @@ def _enter(folder: Path) -> None:
     try:
         environment.enter(folder)
     except (OSError, subprocess.CalledProcessError) as error:
-        print(f"SKIPPED, NOTHING WAS CHECKED: PyBullet and MuJoCo cannot be installed in {folder}: {error}")
+        print(f"SKIPPED, NOTHING WAS CHECKED: the other programs cannot be installed in {folder}: {error}")
         sys.exit(0)
 
 

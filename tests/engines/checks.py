@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import hand
+import ros
 from exports import Islands, Specimen
 from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
 
@@ -19,7 +20,7 @@ FRAMES_PER_S = 60
 
 
 def same_bodies(islands: Islands, specimens: list[Specimen]) -> list[str]:
-    """Loads every body in every engine; returns what differs."""
+    """Loads every body in every engine and in ROS's parser; returns what differs."""
     failures = []
     for specimen in specimens:
         urdf, mjcf = islands.export(specimen, "urdf"), islands.export(specimen, "mjcf")
@@ -28,7 +29,8 @@ def same_bodies(islands: Islands, specimens: list[Specimen]) -> list[str]:
         for engine, player in players.items():
             failures += [f"{specimen.file.name} in {engine}: {what}" for what in _differences(links, player)]
         failures += _joints(specimen, links, players["PyBullet"], players["MuJoCo"])
-    print(f"bodies: {len(specimens)} loaded in PyBullet and MuJoCo, {len(failures)} differences")
+        failures += [f"{specimen.file.name} in ROS: {what}" for what in ros.differences(urdf, links)]
+    print(f"bodies: {len(specimens)} loaded in PyBullet, MuJoCo and ROS's parser, {len(failures)} differences")
     return failures
 
 
