@@ -6,7 +6,7 @@
 
 Minimises Rastrigin and Ackley of 30 variables, ten seeds each, 500,000 evaluations a run, four islands
 of 50 individuals that exchange on a ring every five generations. A run has succeeded when its error is at most 0.01;
-how many evaluations that took is looked at each time that islands exchange. pygmo's `sga` is run as it is by default, and
+how many evaluations that took is known of `islands` to a generation (200) and of pygmo to an exchange (1,000). pygmo's `sga` is run as it is by default, and
 with the operators that ours has by default (simulated binary crossover, eta 15, of nine couples in ten; polynomial
 mutation, eta 20, of one variable in 30; tournaments of 3); each island keeps its best, as sga does.
 

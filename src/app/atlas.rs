@@ -19,7 +19,9 @@ pub fn write<P: Subject>(
     problem: &P,
     islands: &[Island<P::Gene>],
 ) -> Result<(), Failure> {
-    let Survival::MapElites { bins } = config.survival else { return Ok(()) };
+    let Survival::MapElites { bins } = config.archipelago().strategy.survival else {
+        return Ok(());
+    };
     let all = islands.iter().flat_map(|island| island.population.iter().cloned());
     let elites = map_elites::fill(problem, bins, all);
     dir.make_map()?;

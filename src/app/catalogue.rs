@@ -6,7 +6,8 @@ use super::config::{Config, GENES_MAX, SEED_MAX};
 use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::choice;
-use crate::evolution::{Crossover, Mutation};
+use crate::creature::gene::PARAMETER_COUNT;
+use crate::evolution::{Crossover, Mutation, cma};
 use crate::problems::{Benchmark, Bits, Function, Pattern};
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -62,6 +63,9 @@ const OF_CREATURES: [&str; 13] = [
 const OF_FUNCTIONS: [&str; 2] = ["instance", "rotated"];
 /// What only some patterns have.
 const OF_BLOCKS: &str = "block";
+/// Settings that mean nothing to an algorithm without exchange and without a choice of who lives on.
+const IDLE: [&str; 6] =
+    ["survival", "heterogeneous", "topology", "emigrants", "replacement", "exchange"];
 /// What a genome has that is of one length.
 const OF_FIXED: &str = "dimensions";
 /// What bits have no use for: they change wholly or not at all.
@@ -153,11 +157,7 @@ impl Config {
         if instance > SEED_MAX {
             return Err(Failure::usage(format!("instance must be at most {SEED_MAX}")));
         }
-        if self.algorithm == Algorithm::CmaEs && matches!(problem, Kind::Bits(_)) {
-            return Err(Failure::usage(format!(
-                "cma-es learns from numbers, and {problem} has bits"
-            )));
-        }
+        self.check_algorithm()?;
         let is_whole = (1..=dimensions).contains(&block) && dimensions.is_multiple_of(block);
         match problem {
             Kind::Bits(Pattern::Trap | Pattern::RoyalRoad) if !is_whole => {
@@ -169,7 +169,28 @@ impl Config {
         }
     }
 
-    /// Makes sure that nothing is said that means nothing to the problem; the ranges must have been checked.
+    /// Makes sure that the algorithm can search there.
+    fn check_algorithm(&self) -> Result<(), Failure> {
+        let values = match self.problem {
+            Kind::Creatures => self.genes.saturating_mul(PARAMETER_COUNT),
+            Kind::Function(_) => self.dimensions,
+            Kind::Bits(_) => 0,
+        };
+        match self.algorithm {
+            Algorithm::CmaEs if values == 0 => Err(Failure::usage(format!(
+                "cma-es learns from numbers, and {} has bits",
+                self.problem
+            ))),
+            Algorithm::CmaEs if values > cma::DIMENSIONS_MAX => Err(Failure::usage(format!(
+                "cma-es can learn {} numbers at most, and a genome has {values}",
+                cma::DIMENSIONS_MAX
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes sure that nothing is said that means nothing to the problem or the algorithm; the ranges must have been
+    /// checked.
     pub(super) fn check_use(&self) -> Result<(), Failure> {
         let Self { problem, dimensions, .. } = *self;
         // What is of no use to creatures needs no problem that it is of use to.
@@ -178,11 +199,29 @@ impl Config {
         let tables = table(self).and_then(|said| Ok((said, table(&Self::default_for(wish))?)));
         let (said, usual) = tables.map_err(Failure::usage)?;
         let differs = |name: &&str| said.get(*name) != usual.get(*name);
+        let idle = self.idle();
+        if let Some(name) = idle.iter().find(|name| differs(name)) {
+            return Err(Failure::usage(format!(
+                "{name} means nothing to {}: leave it out, or choose another --algorithm",
+                self.algorithm
+            )));
+        }
         match problem.useless().into_iter().find(differs) {
             None => Ok(()),
             Some(name) => Err(Failure::usage(format!(
                 "{name} means nothing to {problem}: leave it out, or choose another --problem"
             ))),
+        }
+    }
+}
+
+impl Config {
+    /// The names of the settings that mean nothing to the algorithm.
+    fn idle(&self) -> &'static [&'static str] {
+        match self.algorithm {
+            Algorithm::Ga => &[],
+            Algorithm::Panmictic => &["heterogeneous"],
+            Algorithm::Random | Algorithm::HillClimb | Algorithm::CmaEs => &IDLE,
         }
     }
 }

@@ -260,7 +260,8 @@ impl Config {
             Algorithm::Panmictic => {
                 let islands = self.islands as usize;
                 let population = self.population.saturating_mul(islands);
-                Self { islands: 1, population, elites: self.elites.saturating_mul(islands), ..self }
+                let elites = self.elites.saturating_mul(islands);
+                Self { islands: 1, population, elites, heterogeneous: false, ..self }
             }
             _ => self,
         }

@@ -7,6 +7,7 @@ use super::Failure;
 use super::config::{Config, POPULATION_MAX};
 use super::genomes;
 use super::subject::Subject;
+use crate::archipelago::Algorithm;
 use crate::problems::Founded;
 use crate::store::{RunDir, file};
 use serde::{Deserialize, Serialize};
@@ -64,6 +65,11 @@ pub fn find<P: Subject>(
             "a genome to begin with has {long} genes, more than --max-genes {}: allow more",
             config.max_genes
         )));
+    }
+    if config.algorithm == Algorithm::CmaEs && !found.is_empty() {
+        return Err(Failure::usage(
+            "cma-es begins with random genomes, which all have as many genes: leave out --seed-genomes",
+        ));
     }
     let used = found.len().min(config.islands as usize * config.population.min(POPULATION_MAX));
     let found = found[..used].to_vec();

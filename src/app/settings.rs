@@ -97,7 +97,7 @@ pub struct SettingArgs {
     #[arg(long, value_name = "RULE", help_heading = "Genetic algorithm")]
     pub adaptation: Option<Adaptation>,
     /// Give each island crossover and mutation rates of its own [default: false]
-    #[arg(long, num_args = 0..=1, default_missing_value = "true", value_name = "BOOL",
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL",
         help_heading = "Genetic algorithm")]
     pub heterogeneous: Option<bool>,
     /// Who sends migrants to whom: ring, bidirectional-ring, full, torus, star, hypercube, random-regular:DEGREE

@@ -5,7 +5,8 @@ use crate::choice;
 use crate::evolution::{Reproduction, Selection, Strategy, Survival, Variation};
 use serde::{Deserialize, Serialize};
 
-/// What searches. All of them evaluate as many genomes a generation and count them alike.
+/// What searches. All of them count evaluations alike, but have not quite as many in a generation: they are compared
+/// at an equal number of evaluations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Algorithm {
@@ -32,28 +33,35 @@ impl Algorithm {
         Algorithm::Panmictic,
     ];
 
-    /// The archipelago on which this algorithm searches, where the settings are those of another one. What it has no use
-    /// for, such as migration between climbers, is off.
+    /// The archipelago on which this algorithm searches, where the settings are those of another one. What it has no
+    /// use for, such as migration between climbers, is off.
     pub fn on(self, archipelago: Archipelago) -> Archipelago {
         let Archipelago { strategy, migration, .. } = archipelago;
         let alone = Migration { migrants: 0, ..migration };
         let with = |strategy| Archipelago { strategy, migration: alone, ..archipelago };
-        let survival = Survival::Generational;
+        let (survival, heterogeneous) = (Survival::Generational, false);
         match self {
             Algorithm::Ga | Algorithm::Panmictic => archipelago,
             Algorithm::Random => {
                 let reproduction = Reproduction::Random;
-                with(Strategy { reproduction, survival, elites: 1, ..strategy })
+                with(Strategy { reproduction, survival, elites: 1, heterogeneous, ..strategy })
             }
             Algorithm::HillClimb => {
                 let variation = Variation { crossover_rate: 0.0, ..strategy.variation };
                 // However few that are, the best is among them.
                 let selection = Selection::Truncation { fraction: 0.0 };
-                with(Strategy { selection, variation, survival, elites: 1, ..strategy })
+                with(Strategy {
+                    selection,
+                    variation,
+                    survival,
+                    elites: 1,
+                    heterogeneous,
+                    ..strategy
+                })
             }
             Algorithm::CmaEs => {
                 let reproduction = Reproduction::CmaEs;
-                with(Strategy { reproduction, survival, elites: 0, ..strategy })
+                with(Strategy { reproduction, survival, elites: 0, heterogeneous, ..strategy })
             }
         }
     }

@@ -44,8 +44,8 @@ pub enum Errand {
 }
 
 impl<G: Clone> Mailbox<G> {
-    /// A mailbox for outboxes of these in-neighbours, of an island that has evolved `generation` and whose earlier lives
-    /// recorded this; none if it begins from its seed.
+    /// A mailbox for outboxes of these in-neighbours, of an island that has evolved `generation` and whose earlier
+    /// lives recorded this; none if it begins from its seed.
     pub fn new(sources: Vec<u32>, generation: Option<u32>, record: Vec<Arrivals>) -> Self {
         let is_over = |entry: &Arrivals| generation.is_some_and(|g| entry.generation <= g);
         let (over, script): (Vec<_>, Vec<_>) = record.into_iter().partition(is_over);

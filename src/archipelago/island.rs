@@ -129,14 +129,7 @@ pub fn step<P: Problem>(
     let moment = Moment { source: archipelago.source(index), generation };
     let strategy = &strategy.on(index, &memory);
 
-    let population = match strategy.survival {
-        // On a map immigrants compete for their cells like everybody else.
-        Survival::MapElites { bins } => {
-            let migrants = migration::in_order(immigrants).cloned();
-            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
-        }
-        _ => migration::immigrate(problem, population, immigrants, migration, moment),
-    };
+    let population = take_in(problem, population, immigrants, archipelago, moment);
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
     let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population);
@@ -168,6 +161,23 @@ pub fn step<P: Problem>(
         memory,
     };
     Step { island, outbox, births, report, champion: crowned, panicked }
+}
+
+/// Phase: takes immigrants in. On a map they compete for their cells like everybody else.
+fn take_in<P: Problem>(
+    problem: &P,
+    population: Population<P::Gene>,
+    immigrants: &[Outbox<P::Gene>],
+    archipelago: &Archipelago,
+    moment: Moment,
+) -> Population<P::Gene> {
+    match archipelago.strategy.survival {
+        Survival::MapElites { bins } => {
+            let migrants = migration::in_order(immigrants).cloned();
+            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
+        }
+        _ => migration::immigrate(problem, population, immigrants, &archipelago.migration, moment),
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Many islands: who is whose neighbour, what travels when, and how one island steps.
 //!
-//! [`algorithm`] says what searches; [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`] is one island's step, a pure function;
-//! [`inbox`] is the receiving end of the exchange protocol, [`arrivals`] that of an exchange in which nobody waits,
-//! and [`voyage`] the whole of it as an island sees it: state machines without a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
+//! [`algorithm`] says what searches; [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`]
+//! is one island's step, a pure function; [`inbox`] is the receiving end of the exchange protocol, [`arrivals`] that
+//! of an exchange in which nobody waits, and [`voyage`] the whole of it as an island sees it: state machines without
+//! a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
 //!

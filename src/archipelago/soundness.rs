@@ -42,7 +42,7 @@ impl<G: Gene> Island<G> {
         let Island { population, champion, effort, .. } = self;
         require(self.index == index && index < archipelago.islands, Misfit::Index)?;
         require(archipelago.strategy.sizes().contains(&population.len()), Misfit::Size)?;
-        require(self.memory.is_sound(&archipelago.strategy), Misfit::Memory)?;
+        require(self.memory.is_sound(&archipelago.strategy, population), Misfit::Memory)?;
         for individual in population.iter().chain([champion]) {
             possible(individual, archipelago, index, self.generation)?;
         }

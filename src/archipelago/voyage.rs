@@ -3,7 +3,7 @@
 //!
 //! Channels may lose, repeat, delay and reorder what is sent, and every island may die at any time and be
 //! born again from an older state, even from its seed. The voyage ends in the same bits all the same, if its
-//! owner keeps four rules:
+//! owner keeps five rules:
 //!
 //! 1. An outbox is in the journal, durably, before the state after it is saved: from that state on it is
 //!    never evolved again, and neighbours may need it for as long as the run lasts. It is there before it is

@@ -15,6 +15,13 @@ use std::cmp::Reverse;
 /// The step size to begin with, as a share of the range of a value: 0.3 as the tutorial has it.
 pub const FIRST_STEP: f64 = 0.3;
 
+/// A larger step size is of no use, nor is a larger number in a covariance or a path: it has run away.
+const SIGMA_MAX: f64 = 1e3;
+const COVARIANCE_MAX: f64 = 1e12;
+
+/// The most values of a sample: the covariance has their square, and is taken apart in each generation.
+pub const DIMENSIONS_MAX: usize = 1_000;
+
 /// The distribution that samples are drawn from, in a space where every value is from 0 to 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cma {
@@ -51,11 +58,14 @@ impl Cma {
     pub fn is_sound(&self) -> bool {
         let n = self.mean.len();
         let lengths = self.sigma_path.len() == n && self.path.len() == n;
-        let vectors = [&self.mean, &self.covariance, &self.sigma_path, &self.path];
+        let within = |values: &[f64]| values.iter().all(|value| value.abs() <= COVARIANCE_MAX);
         n > 0
             && lengths
             && Some(self.covariance.len()) == n.checked_mul(n)
-            && vectors.into_iter().flatten().chain([&self.sigma]).all(|value| value.is_finite())
+            && self.sigma > 0.0
+            && self.sigma <= SIGMA_MAX
+            && self.mean.iter().all(|value| (0.0..=1.0).contains(value))
+            && [&self.covariance, &self.sigma_path, &self.path].into_iter().all(|it| within(it))
     }
 
     /// How many values a sample has.
@@ -65,11 +75,12 @@ impl Cma {
 
     /// What is needed to draw samples.
     pub fn sampler(&self) -> Sampler {
-        let Axes { directions, lengths } = self.axes();
-        Sampler {
-            mean: self.mean.clone(),
-            axes: directions * DMatrix::from_diagonal(&(lengths * self.sigma)),
+        let Axes { mut directions, lengths } = self.axes();
+        // Column by column: how a product of matrices is rounded depends on the processor.
+        for (mut direction, length) in directions.column_iter_mut().zip(lengths.iter()) {
+            direction *= length * self.sigma;
         }
+        Sampler { mean: self.mean.clone(), axes: directions }
     }
 
     /// Learns from samples and what they were worth. If there is nothing to be learned any more, because the
@@ -77,7 +88,10 @@ impl Cma {
     /// about a random place.
     pub fn learn(&mut self, samples: &[(Vec<f64>, Fitness)], rng: &mut Stream) {
         let Some(&(_, first)) = samples.first() else { return };
-        if samples.iter().all(|(_, fitness)| *fitness == first) || !self.update(samples) {
+        // Seeds of another length would have another number of values.
+        let is_alike = |(values, _): &(Vec<f64>, Fitness)| values.len() == self.dimensions();
+        let is_flat = samples.iter().all(|(_, fitness)| *fitness == first);
+        if is_flat || !samples.iter().all(is_alike) || !self.update(samples) {
             *self = Self::about((0..self.dimensions()).map(|_| rng.random()).collect());
         }
     }
@@ -131,7 +145,7 @@ impl Cma {
         }
         let lengths = self.axes().lengths;
         let (least, most) = (lengths.min(), lengths.max());
-        self.sigma * most > 1e-12 && self.sigma < 1e3 && most < 1e7 * least
+        self.sigma * most > 1e-12 && most < 1e7 * least
     }
 
     /// The principal axes of the covariance.

@@ -7,8 +7,9 @@ use super::memory::Memory;
 use super::population::Population;
 use super::problem::{Gene, Problem};
 use super::strategy::{Reproduction, Strategy};
-use super::survival::{Survival, sharing};
+use super::survival::{Survival, niching};
 use super::variation::happens;
+use super::variation::sequences::Layout;
 use crate::rng::{Purpose, Source};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -104,7 +105,9 @@ pub fn first<P: Problem>(
     founder.filter(|_| generation == 0).unwrap_or_else(|| {
         let mut rng = source.stream(generation, index as u32, Purpose::Genesis);
         let mut genome = problem.random_genome(&mut rng);
-        genome.truncate(strategy.variation.genes_max);
+        if problem.layout() == Layout::Free {
+            genome.truncate(strategy.variation.genes_max);
+        }
         genome
     })
 }
@@ -161,7 +164,7 @@ pub fn select<P: Problem>(
     offspring: usize,
 ) -> Vec<[usize; 2]> {
     let fitness: Vec<Fitness> = match strategy.survival {
-        Survival::Sharing { radius } => sharing::shared(problem, population, radius),
+        Survival::Sharing { radius } => niching::shared(problem, population, radius),
         _ => population.iter().map(|i| i.fitness).collect(),
     };
     let Moment { source, generation } = moment;

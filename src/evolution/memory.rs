@@ -7,8 +7,8 @@ use super::strategy::{Adaptation, Reproduction, Strategy};
 use crate::rng::Stream;
 use serde::{Deserialize, Serialize};
 
-/// By what the amount of point mutation is multiplied after a generation with many successes, and divided after one with
-/// few: Schwefel's factor (1981), 1 / 0.85.
+/// By what the amount of point mutation is multiplied after a generation with many successes, and divided after one
+/// with few: Schwefel's factor (1981), 1 / 0.85.
 const GROWTH: f64 = 1.0 / 0.85;
 
 /// The share of offspring better than their mother at which nothing changes (Rechenberg 1973).
@@ -62,10 +62,14 @@ impl Memory {
         if strategy.adaptation == Adaptation::OneFifth {
             let successes = brood.iter().filter(|child| is_success(child, population)).count();
             let share = successes as f64 / brood.len().max(1) as f64;
-            let factor = if share > SUCCESSES { GROWTH } else { 1.0 / GROWTH };
-            let scale =
-                if share == SUCCESSES { self.amount_scale } else { self.amount_scale * factor };
-            self.amount_scale = scale.clamp(SCALES.0, SCALES.1);
+            // More than the whole range would only have to be unlearned again.
+            let can_grow = strategy.variation.point_amount < 1.0;
+            let factor = match share {
+                _ if share > SUCCESSES && can_grow => GROWTH,
+                _ if share < SUCCESSES => 1.0 / GROWTH,
+                _ => 1.0,
+            };
+            self.amount_scale = (self.amount_scale * factor).clamp(SCALES.0, SCALES.1);
         }
         if let Some(cma) = &mut self.cma {
             let samples: Vec<_> =
@@ -75,12 +79,24 @@ impl Memory {
         self
     }
 
-    /// Whether what was read from a file can be such a state, in a run with this strategy.
-    pub fn is_sound(&self, strategy: &Strategy) -> bool {
+    /// Whether what was read from a file can be such a state, of an island with this strategy and population.
+    pub fn is_sound<G: Gene>(&self, strategy: &Strategy, population: &[Individual<G>]) -> bool {
         let learns = strategy.reproduction == Reproduction::CmaEs;
-        (SCALES.0..=SCALES.1).contains(&self.amount_scale)
+        let fits = |cma: &Cma| {
+            let is_alike = |one: &Individual<G>| values(&one.genome).len() == cma.dimensions();
+            cma.is_sound() && population.iter().all(is_alike)
+        };
+        Self::is_scale(self.amount_scale, strategy.adaptation)
             && self.cma.is_some() == learns
-            && self.cma.as_ref().is_none_or(|cma| cma.is_sound())
+            && self.cma.as_ref().is_none_or(|cma| fits(cma))
+    }
+
+    /// Whether [`Memory::amount_scale`] can be this.
+    pub fn is_scale(scale: f64, adaptation: Adaptation) -> bool {
+        match adaptation {
+            Adaptation::None => scale == 1.0,
+            Adaptation::OneFifth => (SCALES.0..=SCALES.1).contains(&scale),
+        }
     }
 }
 

@@ -1,9 +1,9 @@
 //! The genetic algorithm: genomes in, better genomes out.
 //!
-//! Read in this order: a [`Problem`] says what a genome is and how good it is ([`Fitness`]); an
-//! [`Individual`] is an evaluated genome with a parentage, a [`Population`] an ordered list of them;
-//! [`Selection`] picks parents, [`variation`] recombines and mutates, [`survival`] decides who stays; [`generation`] has
-//! these phases, [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`sharing`] deals
+//! Read in this order: a [`Problem`] says what a genome is and how good it is ([`Fitness`]); an [`Individual`] is an
+//! evaluated genome with a parentage, a [`Population`] an ordered list of them; [`Selection`] picks parents,
+//! [`variation`] recombines and mutates, [`survival`] decides who stays; [`generation`] has these phases,
+//! [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`sharing`] deals
 //! evaluations out to threads.
 //!
 //! Architecture invariant: pure. Nothing here knows a creature, a clock, a file or a process, and every

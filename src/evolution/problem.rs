@@ -69,8 +69,8 @@ pub trait Problem: Sync + Sized {
     /// Scores a genome.
     fn evaluate(&self, genome: &[Self::Gene]) -> Evaluation;
 
-    /// Scores a champion once more by a slower and more trusted judge than [`Problem::evaluate`], where there is one. It
-    /// decides nothing of what evolves, but which champion a run keeps.
+    /// Scores a champion once more by a slower and more trusted judge than [`Problem::evaluate`], where there is
+    /// one. It decides nothing of what evolves, but which champion a run keeps.
     fn confirm(&self, _genome: &[Self::Gene]) -> Option<Evaluation> {
         None
     }

@@ -7,8 +7,8 @@ use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// A genome is worth the sum of its numbers, costs as much as it is long, fails with a 13 in it and panics with a 66. Who is evaluated
-/// is written down.
+/// A genome is worth the sum of its numbers, costs as much as it is long, fails with a 13 in it and panics with a
+/// 66. Who is evaluated is written down.
 #[derive(Default)]
 struct Ledger(Mutex<Vec<Vec<Number>>>);
 

@@ -42,9 +42,9 @@ impl Task {
     pub fn trial(self) -> Trial {
         match self {
             Task::Walk | Task::Travel => Trial {
-                // Of 300 random native bodies (`cargo bench --bench survey -- rates`) 240 Hz changed the scores that 480
-                // gave no more than 960 did (rank correlation 0.78 both), 120 more (0.72), and at 120 rapier gave
-                // bodies eight times as much momentum out of nothing, half of what the ledger refuses.
+                // Of 300 random native bodies (`cargo bench --bench survey -- rates`) 240 Hz changed the scores that
+                // 480 gave no more than 960 did (rank correlation 0.78 both), 120 more (0.72), and at 120 rapier
+                // gave bodies eight times as much momentum out of nothing, half of what the ledger refuses.
                 steps_per_s: 240,
                 perturbation: Perturbation::NONE,
                 gravity_m_s2: 9.81,

@@ -1,11 +1,12 @@
 //! What the runs of an experiment say.
 
 use super::archive::Run;
-use super::definition::{Plan, Setting};
+use super::definition::Plan;
 use super::trial::Trial;
 use crate::formats::chart::{Chart, Curve, Point};
 use crate::statistics::{self, Five};
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// With more settings of an aim than this, each is compared with the first one only, not with every other.
 const ALL_PAIRS_MAX: usize = 6;
@@ -83,14 +84,18 @@ fn summary(name: &str, runs: &[Run], target: Option<f64>) -> Summary {
 
 /// Compares each pair of settings with the same aim, or each setting with the first one of its aim if there are many.
 pub fn comparisons(plan: &Plan, runs: &[Vec<Run>]) -> Vec<Comparison> {
-    let count = plan.settings.len();
-    let aims: Vec<String> = plan.settings.iter().map(Setting::aim).collect();
-    let is_compared = |&(a, b): &(usize, usize)| {
-        let alike = aims.iter().filter(|aim| **aim == aims[a]).count();
-        let is_first = !aims[..a].contains(&aims[a]);
-        aims[a] == aims[b] && (alike <= ALL_PAIRS_MAX || is_first)
-    };
-    let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))).filter(is_compared);
+    let mut alike: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (index, setting) in plan.settings.iter().enumerate() {
+        alike.entry(setting.aim()).or_default().push(index);
+    }
+    let mut pairs: Vec<(usize, usize)> = Vec::new();
+    for group in alike.values() {
+        let firsts = if group.len() <= ALL_PAIRS_MAX { group.len() } else { 1 };
+        for (place, &a) in group.iter().enumerate().take(firsts) {
+            pairs.extend(group[place + 1..].iter().map(|&b| (a, b)));
+        }
+    }
+    pairs.sort_unstable();
     let compare = |(a, b): (usize, usize)| {
         let (of_a, of_b) = (bests(&runs[a]), bests(&runs[b]));
         let test = statistics::mann_whitney(&of_a, &of_b)?;
@@ -98,7 +103,7 @@ pub fn comparisons(plan: &Plan, runs: &[Vec<Run>]) -> Vec<Comparison> {
         let [a, b] = [a, b].map(|index| plan.settings[index].name.clone());
         Some(Comparison { a, b, u: test.u, p: test.p, p_holm: test.p, a12 })
     };
-    let mut all: Vec<Comparison> = pairs.filter_map(compare).collect();
+    let mut all: Vec<Comparison> = pairs.into_iter().filter_map(compare).collect();
     let corrected = statistics::holm(&all.iter().map(|it| it.p).collect::<Vec<_>>());
     for (comparison, p_holm) in all.iter_mut().zip(corrected) {
         comparison.p_holm = p_holm;
@@ -155,7 +160,7 @@ fn curve(runs: &[Run], until: u64) -> Vec<Point> {
     if begin > end {
         return Vec::new();
     }
-    let steps = (1..=PARTS).map(|part| until * u64::from(part) / u64::from(PARTS));
+    let steps = (1..=PARTS).map(|part| (until as f64 * f64::from(part) / f64::from(PARTS)) as u64);
     let within = steps.filter(|at| begin < *at && *at < end);
     let mut places: Vec<u64> = [begin].into_iter().chain(within).chain([end]).collect();
     places.dedup();

@@ -25,7 +25,8 @@ pub fn match_journals<G>(dir: &RunDir, records: &Records<G>, mut check: Check) -
 }
 
 /// Evolves a run that has finished again from its record, if that is wished (`thorough`): it must come to the same
-/// digest. `sound` says that nothing is wrong with its records. Nothing where the seed alone fixes the result.
+/// digest. `sound` says that nothing is wrong with its records. Where the seed alone fixes the result, nothing: who
+/// descends from whom tells enough; but from the seed again where genomes are drawn from a distribution.
 pub fn replay<P: Subject>(
     dir: &RunDir,
     problem: &P,
@@ -39,25 +40,34 @@ pub fn replay<P: Subject>(
     let mut check = Check::of("replay").checked(checked);
     let finals = records.finals(terms).filter(|_| sound);
     match (finals, seeds::founded(dir, terms.config, problem.clone())) {
-        _ if !terms.is_async() => return None,
-        _ if !thorough => check.note("not tried: --thorough evolves the run again from its record"),
+        _ if !terms.is_async() && !terms.is_drawn() => return None,
+        _ if !thorough => check.note("not tried: --thorough evolves the run again"),
         _ if !terms.is_of_this_version() => {
             check.note("not tried: another version may evolve otherwise")
         }
         (Some(finals), Ok(problem)) => {
             let archipelago = terms.config.archipelago();
             let record = &records.arrivals;
-            match lockstep::replay(&problem, &archipelago, generations, record, |_| ()) {
+            let (cause, again) = match terms.is_async() {
+                true => (
+                    "what the islands took in",
+                    lockstep::replay(&problem, &archipelago, generations, record, |_| ()),
+                ),
+                false => {
+                    ("the seed", Ok(lockstep::run(&problem, &archipelago, generations, |_| ())))
+                }
+            };
+            match again {
                 Err(impossible) => check.damaged(impossible),
                 Ok(islands) => {
                     let [found, expected] = [Digest::of(&islands), Digest::of(finals)];
                     match found == expected {
                         true if islands == finals => check.result("the same digest"),
-                        true => check.damaged(
-                            "what the islands took in leads to the same digest by another descent",
-                        ),
+                        true => check.damaged(format_args!(
+                            "{cause} leads to the same digest by another descent"
+                        )),
                         false => check.damaged(format_args!(
-                            "what the islands took in leads to {found}, and the final populations have {expected}"
+                            "{cause} leads to {found}, and the final populations have {expected}"
                         )),
                     }
                 }

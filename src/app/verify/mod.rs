@@ -1,8 +1,8 @@
 //! `islands verify`: whether a run's folder holds what it claims.
 //!
-//! `records` reads what each island left, and `rules` says what must hold of it; `ancestry`
-//! breeds the champions again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it with the
-//! files of the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
+//! `records` reads what each island left, and `rules` says what must hold of it; `ancestry` breeds the champions
+//! again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it with the files of
+//! the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
 //!
 //! Nothing is written, and a folder may hold anything: what is wrong is a sentence, not an end.
 

@@ -11,7 +11,7 @@ use crate::archipelago::{
 };
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Gene, Id, Reproduction, Survival};
+use crate::evolution::{Fitness, Gene, Id, Memory, Reproduction, Survival};
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 
@@ -156,7 +156,8 @@ impl<'a> Terms<'a> {
     ) -> Result<(), String> {
         let wrong = |reason: &str| Err(reason.to_owned());
         let Config { population, islands, .. } = *self.config;
-        let is_scale = found.amount_scale > 0.0 && found.amount_scale.is_finite();
+        let adaptation = self.archipelago.strategy.adaptation;
+        let is_scale = Memory::is_scale(found.amount_scale, adaptation);
         let has_size = found.births.len() == self.brood(generation);
         if found.generation != generation || !has_size || !is_scale {
             return wrong("is of another generation or size");
@@ -264,6 +265,11 @@ impl<'a> Terms<'a> {
     /// Whether its islands do not wait for each other.
     pub fn is_async(&self) -> bool {
         self.config.exchange == ExchangeMode::Async
+    }
+
+    /// Whether offspring are drawn from a distribution, so that nobody descends from anybody.
+    pub fn is_drawn(&self) -> bool {
+        self.archipelago.strategy.reproduction == Reproduction::CmaEs
     }
 
     /// What must hold of the record of what an island took in, but for the senders' journals.

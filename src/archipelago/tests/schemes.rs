@@ -65,8 +65,8 @@ fn every_state_fits_its_island_and_everybody_can_be_bred_again() {
         assert_eq!(bred, everybody, "{strategy:?}");
         digests.insert(Digest::of(&islands).to_string());
     }
-    // Bits are not blended, so that three crossovers are one but for the islands' rates; who is picked for a map does not
-    // depend on the selection.
+    // Bits are not blended, so that three crossovers are one but for the islands' rates; who is picked for a map
+    // does not depend on the selection.
     assert_eq!(digests.len(), 4 * 5 * 4 + 4, "what differs has an effect");
 }
 

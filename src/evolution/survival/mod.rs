@@ -3,7 +3,7 @@
 pub mod afpo;
 pub mod crowding;
 pub mod map_elites;
-pub mod sharing;
+pub mod niching;
 
 use super::individual::Individual;
 use super::population::{Population, ranking};
@@ -19,7 +19,7 @@ use std::str::FromStr;
 pub enum Survival {
     /// [`elitist`]: the offspring replace all but the elites.
     Generational,
-    /// The same, but parents are picked by their [`sharing::shared`] fitness.
+    /// The same, but parents are picked by their [`niching::shared`] fitness.
     Sharing {
         /// The distance from which on two individuals share nothing, above 0, at most 1.
         radius: f64,

@@ -105,12 +105,12 @@ fn of_clones_one_is_in_front() {
 #[test]
 fn who_lives_alone_keeps_its_fitness_and_a_crowd_shares_one() {
     let crowd = [one(0, 0.5, 3.0), one(1, 0.5, 3.0), one(2, 0.9, 3.0), one(3, 0.1, 1.0)];
-    let shared = sharing::shared(&Line, &crowd, 0.1);
+    let shared = niching::shared(&Line, &crowd, 0.1);
     assert_eq!(shared[0], shared[1]);
     assert_eq!(shared[2].get(), 2.0 * shared[0].get());
     assert_eq!(shared[3].get(), 0.0);
     let failed = [one(0, 0.5, f64::NAN), one(1, 0.5, 1.0)];
-    assert_eq!(sharing::shared(&Line, &failed, 0.1)[0], Fitness::WORST);
+    assert_eq!(niching::shared(&Line, &failed, 0.1)[0], Fitness::WORST);
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub struct Variation {
     pub grow_rate: f64,
     /// Probability of an offspring to repeat a part of itself, 0 to 1: see [`Problem::duplicate`].
     pub duplicate_rate: f64,
-    /// No genome gets longer than this, in genes, at least 1.
+    /// No genome that may be of any length gets longer than this, in genes, at least 1.
     pub genes_max: usize,
 }
 
@@ -159,6 +159,7 @@ pub fn recombine<P: Problem>(
 ) -> Vec<P::Gene> {
     let layout = problem.layout();
     let Variation { crossover, genes_max, .. } = *variation;
+    let genes_max = if layout == Layout::Fixed { usize::MAX } else { genes_max };
     match crossover {
         Crossover::OnePoint => sequences::one_point_crossover(a, b, layout, genes_max, rng),
         Crossover::TwoPoint => sequences::two_point_crossover(a, b, layout, genes_max, rng),
@@ -166,12 +167,12 @@ pub fn recombine<P: Problem>(
             sequences::gene_by_gene(a, b, |a, b| if rng.random() { *b } else { *a })
         }
         Crossover::Blend { .. } | Crossover::Sbx { .. } => {
-            sequences::gene_by_gene(a, b, |a, b| blend(a, b, crossover, rng))
+            sequences::gene_by_gene(a, b, |a, b| number_by_number(a, b, crossover, rng))
         }
     }
 }
 
-fn blend<G: Gene>(a: &G, b: &G, crossover: Crossover, rng: &mut Stream) -> G {
+fn number_by_number<G: Gene>(a: &G, b: &G, crossover: Crossover, rng: &mut Stream) -> G {
     let mut child = *a;
     if child.values().is_empty() {
         return if rng.random() { *b } else { *a };

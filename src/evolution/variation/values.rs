@@ -19,14 +19,14 @@ pub fn mutate(values: &mut [f64], variation: &Variation, rng: &mut Stream) {
     }
 }
 
-/// Makes values of one parent and another: `a` becomes the child.
+/// Makes values of those of one parent and another: `a` becomes the child. Operators that know only whole genes
+/// leave it as it is.
 pub fn recombine(a: &mut [f64], b: &[f64], crossover: Crossover, rng: &mut Stream) {
     for (a, &b) in a.iter_mut().zip(b) {
         *a = match crossover {
             Crossover::Blend { alpha } => blend(*a, b, alpha, rng),
             Crossover::Sbx { eta } => sbx(*a, b, eta, rng),
-            _ if rng.random() => b,
-            _ => *a,
+            Crossover::OnePoint | Crossover::TwoPoint | Crossover::Uniform => *a,
         };
     }
 }
@@ -80,7 +80,8 @@ fn sbx(a: f64, b: f64, eta: f64, rng: &mut Stream) -> f64 {
     let base = if draw < 0.5 { 2.0 * draw } else { 0.5 / (1.0 - draw) };
     let beta = libm::pow(base, 1.0 / (eta + 1.0));
     let side = if rng.random() { beta } else { -beta };
-    reflect(0.5 * ((1.0 + side) * a + (1.0 - side) * b))
+    // So written that equal parents have a child that is equal to the last bit.
+    reflect(0.5 * (a + b) + 0.5 * side * (a - b))
 }
 
 /// Brings a value that left the range from 0 to 1 back in, as mirrors at its ends would: a clamp would pile values up
@@ -149,6 +150,7 @@ mod tests {
         let draws: Vec<f64> = (0..4_000).map(|i| sbx(0.4, 0.6, 15.0, &mut stream(i))).collect();
         let count = |wanted: &dyn Fn(f64) -> bool| draws.iter().filter(|it| wanted(**it)).count();
         assert!((1_900..2_100).contains(&count(&|it| it == 0.4)));
+        assert_eq!(sbx(0.3, 0.3, 1.0, &mut stream(1)), 0.3);
         let others = |near: f64| count(&|it| it != 0.4 && (it - near).abs() < 0.1);
         assert!((900..1_100).contains(&others(0.4)) && (900..1_100).contains(&others(0.6)));
     }
