@@ -19,7 +19,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 const ROUNDS: usize = 5;
-const GENERATIONS: u32 = 24;
+const GENERATIONS: u32 = 12;
 const SEED: u64 = 7;
 /// More generations than any run has.
 const NEVER: u32 = 1_000_000_000;
