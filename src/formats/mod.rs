@@ -8,8 +8,8 @@
 //! - [`motion`] is how a body moved.
 //! - [`chart`] draws curves with bands, as SVG.
 //!
-//! Architecture invariant: this alone imports plotters. Nothing here opens a file or changes what it is given; each format reads from any
-//! reader or writes to any writer.
+//! Architecture invariant: this alone imports plotters. Nothing here opens a file or changes what it is given; each
+//! format reads from any reader or writes to any writer.
 
 pub mod body_inspection;
 pub mod chart;

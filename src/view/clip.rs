@@ -45,8 +45,8 @@ const RULER_MAX_M: f32 = 100.0;
 /// The highest that a label hangs in an island's own view, in reaches of the body: above it is out of sight.
 const MARKER_MAX: f32 = 0.78;
 
-/// How much higher a label hangs in the view of all lanes for each lane, in metres: from farther away and above it would
-/// cover its body.
+/// How much higher a label hangs in the view of all lanes for each lane, in metres: from farther away and above it
+/// would cover its body.
 const FLAG_M: f32 = 0.06;
 
 /// Writes a clip into its place in the film, and returns how far along its lane something of it is ever seen, in

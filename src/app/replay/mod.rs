@@ -10,7 +10,8 @@ mod line;
 #[cfg(feature = "view")]
 mod race;
 
-/// Films the creatures in the files that are named, genomes or bodies, side by side, or the creatures of a run, one after another.
+/// Films the creatures in the files that are named, genomes or bodies, side by side, or the creatures of a run, one
+/// after another.
 ///
 /// # Errors
 /// If one cannot be read or expressed, or the recording cannot be written.
