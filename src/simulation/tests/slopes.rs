@@ -235,10 +235,12 @@ fn who_begins_beside_a_cliff_and_rolls_away_from_it_is_no_athlete() {
         0.15 * row as f64 + if column > 13 && row > 12 { 5.0 } else { 0.0 }
     };
     let heights_m = (0..21 * 21).map(|i| height_m(i % 21, i / 21)).collect();
-    let terrain = Terrain::new([21, 21], 0.5, heights_m, [1.3, 1.6]).unwrap();
+    let terrain = Terrain::new([21, 21], 0.5, heights_m, [1.2, 1.6]).unwrap();
     let mut ball = sled();
     ball.morphology.links[0].shape = Shape::Sphere { radius_m: 0.25 };
-    let trial = Trial { scored_s: 3.0, ..TRIAL.on(terrain.keep()) };
+    // It touches neither the cliff nor the ground, and the cliff is within its reach.
+    let start = Start::RootAt(0.27);
+    let trial = Trial { start, scored_s: 3.0, ..TRIAL.on(terrain.keep()) };
     for engine in Engine::ALL {
         let measured = simulate(&ball, &trial, engine);
         let rolled_m = measured.map(|it| (it.centre_last_m - it.centre_first_m).y);
