@@ -181,8 +181,17 @@ fn a_terrain_that_was_changed_or_is_gone_is_refused() {
     world.write("run/terrain.csv", copy.replacen(",0,", ",0.5,", 1));
     let said = world.refusal("resume run --generations 4");
     assert!(said.contains("it is not what run.toml says of it"), "{said}");
-    assert_eq!(world.islands("verify run").code, Some(1));
+    let blamed = || {
+        let ending = world.islands("verify run --json");
+        assert_eq!(ending.code, Some(1), "{ending:?}");
+        let damaged = ending.json()["damaged"].to_string();
+        assert!(damaged.contains("cannot use run/terrain.csv as a terrain"), "{damaged}");
+        let table = world.islands("verify run").stdout;
+        assert!(table.contains("terrain.csv") && !table.contains("run.toml is damaged"), "{table}");
+    };
+    blamed();
     fs::remove_file(world.path("run/terrain.csv")).unwrap();
+    blamed();
     let said = world.refusal("resume run --generations 4");
     assert!(said.contains("terrain.csv"), "{said}");
     let said = world.refusal("run --config run/run.toml --out new");
@@ -199,6 +208,8 @@ fn what_is_no_terrain_is_refused_before_anything_is_made() {
         ("run --terrain valley.png --terrain-start 99,0", "a body cannot begin at (99 m, 0 m)"),
         ("evaluate genome.csv --terrain genome.csv", "it has no faces"),
         ("replay genome.csv --terrain genome.csv", "it has no faces"),
+        ("export genome.csv --format mjcf --out it --task climb", "--format mjcf writes a plane"),
+        ("export genome.csv --format mjcf --out it --terrain valley.png", "only motion knows"),
         ("run --problem sphere --terrain valley.png", "terrain means nothing to sphere"),
         ("evaluate genome.csv --problem sphere --terrain valley.png", "terrain means nothing"),
     ] {

@@ -147,6 +147,26 @@ fn a_ball_gains_nothing_by_being_pushed() {
     }
 }
 
+/// The course's measure has no halves, so that a push would count in full.
+#[test]
+fn nobody_is_pushed_in_the_course() {
+    let ball =
+        Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
+    let body = Creature {
+        morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
+        controller: Controller { period_s: 0.1, motors: vec![None] },
+    };
+    for engine in Engine::ALL {
+        let score = |trials| {
+            let problem =
+                Locomotion { task: Task::Course, ..robust(trials, RobustBy::Mean, engine) };
+            problem.film_body(&body).0.fitness.finite().unwrap()
+        };
+        let gained_m = score(6) - score(0);
+        assert!(gained_m.abs() < 0.01, "{engine}: {gained_m} m");
+    }
+}
+
 #[test]
 fn what_a_run_says_of_robust_champions_is_what_everybody_else_finds() {
     let world = World::new();
@@ -193,6 +213,27 @@ fn a_replay_shows_robust_scores_as_the_run_had_them_and_others_if_it_is_told_to(
     assert!(!shown("run/champion.csv --engine featherstone"));
     let said = world.refusal("replay run/champion.csv --robustness 101");
     assert!(said.contains("robustness must be from 0 to 100"), "{said}");
+}
+
+#[cfg(feature = "view")]
+#[test]
+fn the_film_that_a_run_names_gets_what_the_run_got() {
+    let world = World::new();
+    for wish in [
+        "--robustness 2 --robust-by mean --max-links 3",
+        "--profile coursework --scale link-length=0.4",
+    ] {
+        let run = world.islands(&format!("--n 1 --seed 3 --out run --no-monitor {wish} {TINY}"));
+        let line = |begins: &str| {
+            let found = run.stdout.lines().find_map(|line| line.strip_prefix(begins));
+            found.unwrap_or_else(|| panic!("{run:?}")).to_owned()
+        };
+        let [best, film] = ["best ", "film     islands "].map(line);
+        let score = best.trim().split(',').next().unwrap();
+        let ending = world.islands(&film);
+        assert!(ending.stdout.contains(score), "{film}: {ending:?}, not {score}");
+        std::fs::remove_dir_all(world.path("run")).unwrap();
+    }
 }
 
 #[test]

@@ -127,9 +127,9 @@ pub struct ImportArgs {
 #[command(after_help = "Formats:
   csv     the genome, for the course's program; what it cannot build is refused with the reason
   urdf    the body, for ROS, PyBullet, Gazebo and others; read back here with all its motors
-  mjcf    the body on a ground like ours, for MuJoCo, with a velocity actuator a motor
+  mjcf    the body on a plane like ours, for MuJoCo, with a velocity actuator a motor; none on a terrain
   stl     the body in rest pose, for printing, one closed surface a link; in millimetres
-  motion  how it moves in its trial, as CSV: time, link, position, rotation
+  motion  how it moves in its trial, on the terrain if there is one, as CSV: time, link, position, rotation
 
 Exit codes: 0 done, 1 failed, 2 asked for something impossible.
 

@@ -1,6 +1,7 @@
 //! The one place that prints, and the one that reads a clock.
 
 use std::io::Write;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Says something to the user, on standard error. Nobody listening is no reason to fail.
@@ -11,6 +12,16 @@ pub fn say(line: &str) {
 /// Prints a line of the result, on standard output. Nobody reading it is no reason to fail, either.
 pub fn print(line: &str) {
     let _ = writeln!(std::io::stdout().lock(), "{line}");
+}
+
+/// A path as a shell takes it.
+pub fn quoted(path: &Path) -> String {
+    let path = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+:@%".contains(c);
+    match path.chars().all(is_plain) {
+        true => path,
+        false => format!("'{}'", path.replace('\'', r"'\''")),
+    }
 }
 
 /// Measures how long something takes, for people and for time-outs.

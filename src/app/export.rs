@@ -25,6 +25,12 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     if !SIZES.contains(&args.size) {
         return Err(Failure::usage("--size must be from 0.000001 to 1000000"));
     }
+    if args.format == Format::Mjcf && problem.trial().ground.terrain().is_some() {
+        return Err(Failure::usage(
+            "--format mjcf writes a plane to stand on: leave out --task climb and --terrain; of the formats only motion \
+             knows the terrain",
+        ));
+    }
     let specimen = Specimen::read(&args.genome, &args.trial.read.changes)?;
     if args.format == Format::Csv {
         return export_genome(args, &specimen);

@@ -28,7 +28,7 @@ pub struct TerrainArgs {
     #[arg(long, value_name = "M", requires = "terrain")]
     pub terrain_height: Option<f64>,
     /// Where on it creatures begin, in metres east and north of its middle [default: seven tenths of the way to the
-    /// southern wall]
+    /// southern wall, or as in the terrain.csv]
     #[arg(long, value_name = "X,Y", requires = "terrain", allow_hyphen_values = true)]
     pub terrain_start: Option<Place>,
 }

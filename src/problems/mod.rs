@@ -1,8 +1,8 @@
 //! What can be evolved.
 //!
 //! [`locomotion`] evolves creatures that move, [`progress`] says how far one got, and [`robustness`] what several
-//! trials come to; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of
-//! ones and zeros, both of a [`fixed`] length; [`founded`] begins with given genomes.
+//! trials come to; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones
+//! and zeros, both of a [`fixed`] length; [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
 //!

@@ -21,8 +21,8 @@ pub fn away_m(track_m: &[Vector2<f64>]) -> f64 {
     left.fold(whole.norm(), |least, left| least.min(2.0 * left))
 }
 
-/// The length of a track in metres, measured with a ruler as long as the body reaches from its root, but at most twice what
-/// is left of it without its best half.
+/// The length of a track in metres, measured with a ruler as long as the body reaches from its root, but at most twice
+/// what is left of it without its best half.
 ///
 /// A ruler does not see what is shorter than it (Richardson 1961, who measured coasts): however fast a body rocks,
 /// trembles or spins in place, it gets no farther than its own reach from where it is.

@@ -2,9 +2,9 @@
 //!
 //! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it. An [`Engine`] moves it through
 //! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors, [`settling`] brings
-//! it to rest on the [`terrain`] before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it.
-//! [`perturbation`] says what may differ from one trial of a body to the next.
-//! [`simulate`] runs it and returns what was measured; what of that is worth how much is for a task to say.
+//! it to rest on the [`terrain`] before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can
+//! be seen of it. [`perturbation`] says what may differ from one trial of a body to the next. [`simulate`] runs it and
+//! returns what was measured; what of that is worth how much is for a task to say.
 
 pub mod actuator;
 pub mod assembly;

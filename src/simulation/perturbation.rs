@@ -7,16 +7,20 @@
 //! The `index`-th perturbation is the same for all bodies, wherever and whenever they are tried: it is drawn from an
 //! address that holds nothing but its index.
 
+use super::terrain::Ground;
 use super::trial::Trial;
 use crate::rng::{Purpose, Source, Stream};
 use nalgebra::Vector3;
 use rand::RngExt;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Friction of the ground differs by at most this share.
 const FRICTION_SHARE: f64 = 0.25;
 /// The strength of motors differs by at most this share, all of a body alike.
 const TORQUE_SHARE: f64 = 0.2;
+/// On a terrain a body is turned by at most this angle, in radians: there the ways differ, and who faces the hill in
+/// one trial and turns its back on it in the next cannot know where to go.
+const TERRAIN_YAW_RAD: f64 = 0.2;
 /// The greatest push, in m/s.
 const PUSH_M_S_MAX: f64 = 0.3;
 /// The shares of the scored time between which a push comes. In its second half, since what is pushed and rolls on for
@@ -65,16 +69,33 @@ impl Perturbation {
         let push_m_s = Vector3::new(cos, sin, 0.0) * speed_m_s;
         Self { friction, torque, yaw_rad, push_m_s, push_share }
     }
+
+    /// The same, but the circle of yaws is that of [`TERRAIN_YAW_RAD`] to either side.
+    fn facing_ahead(self) -> Self {
+        Self { yaw_rad: (self.yaw_rad / PI - 1.0) * TERRAIN_YAW_RAD, ..self }
+    }
 }
 
 impl Trial {
     /// The same trial with its `index`-th perturbation, and at other steps.
     pub fn perturbed(&self, index: u32) -> Self {
         let mut rng = Source { seed: 0, island: 0 }.stream(0, index, Purpose::Perturbation);
-        let perturbation = Perturbation::draw(&mut rng);
+        let drawn = Perturbation::draw(&mut rng);
+        let perturbation = match self.ground {
+            Ground::Plane => drawn,
+            Ground::Terrain(_) => drawn.facing_ahead(),
+        };
         let rate = f64::from(self.steps_per_s) * between(RATE_SHARES, &mut rng);
         let steps_per_s = ((rate / RATE_UNIT).round() * RATE_UNIT) as u32;
         Self { steps_per_s, perturbation, ..*self }
+    }
+
+    /// The same trial without a push, for scores that one would be a free gain of.
+    pub fn unpushed(&self) -> Self {
+        let none = Perturbation::NONE;
+        let Perturbation { push_m_s, push_share, .. } = none;
+        let perturbation = Perturbation { push_m_s, push_share, ..self.perturbation };
+        Self { perturbation, ..*self }
     }
 
     /// After how many scored steps the body is pushed: when a position of the track was taken, so that the track shows
@@ -91,7 +112,7 @@ fn between([from, to]: [f64; 2], rng: &mut Stream) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::terrain::Ground;
+    use super::super::terrain::mountain;
     use super::super::trial::Start;
     use super::*;
 
@@ -140,6 +161,20 @@ mod tests {
         }
         let directions = all.iter().map(|it| it.perturbation.push_m_s).sum::<Vector3<f64>>();
         assert!(directions.norm() < 0.3 * 500.0 / 10.0 && directions.z == 0.0, "{directions}");
+    }
+
+    #[test]
+    fn on_a_terrain_bodies_face_nearly_the_same_way_and_all_else_is_as_on_a_plane() {
+        let mut widest = [0.0_f64; 2];
+        for index in 0..500 {
+            let [plane, terrain] = [TRIAL, TRIAL.on(mountain())].map(|it| it.perturbed(index));
+            let yaw_rad = terrain.perturbation.yaw_rad;
+            widest = [widest[0].min(yaw_rad), widest[1].max(yaw_rad)];
+            let same = Perturbation { yaw_rad, ..plane.perturbation };
+            assert_eq!((terrain.perturbation, terrain.steps_per_s), (same, plane.steps_per_s));
+        }
+        assert!((-0.2..-0.19).contains(&widest[0]), "{widest:?}");
+        assert!((0.19..=0.2).contains(&widest[1]), "{widest:?}");
     }
 
     #[test]

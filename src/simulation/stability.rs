@@ -28,13 +28,12 @@ impl Guard {
     /// The bounds of a body that was just put together.
     pub fn new(assembly: &Assembly, creature: &Creature, ground: Ground) -> Self {
         let extent_m = creature.morphology.extent_m();
-        let mut guard = Self { height_max_m: 0.0, ground, extent_m };
         let positions_m = assembly.parts.iter().map(|part| part.world_from_part.translation.vector);
-        let heights = positions_m.map(|position_m| guard.height_m(&position_m));
+        // Over the ground below: over a cliff beside it, it may be far below zero, and higher as soon as it walks off.
+        let heights = positions_m.map(|at_m| at_m.z - ground.height_m(at_m.x, at_m.y));
         let start_m = heights.fold(f64::NEG_INFINITY, f64::max);
         let rise_m = RISE_MAX_EXTENTS * extent_m + RISE_MAX_M;
-        guard.height_max_m = start_m + rise_m;
-        guard
+        Self { height_max_m: start_m + rise_m, ground, extent_m }
     }
 
     fn height_m(&self, position_m: &Vector3<f64>) -> f64 {
@@ -115,7 +114,8 @@ pub struct Ledger {
 impl Ledger {
     /// A ledger of positions that many steps apart, for a body that has this position and velocity at its beginning.
     ///
-    /// From that velocity to the mean one of the first period T it is (1/T) ∫ (T - t) a dt, in which gravity counts half.
+    /// From that velocity to the mean one of the first period T it is (1/T) ∫ (T - t) a dt, in which gravity counts
+    /// half.
     pub fn new(
         trial: &Trial,
         steps: u32,
@@ -184,6 +184,7 @@ mod tests {
         assert_eq!(ledger.clone().enter(falling), Ok(()));
         assert_eq!(ledger.enter(falling + Vector3::x() * 0.02), Err(Outcome::Unphysical));
     }
+
     #[test]
     fn what_rubber_may_do_is_a_push_on_ice() {
         let enter = |friction| {

@@ -1,9 +1,9 @@
 //! All that an island leaves on disk, and how it finds its way back from there.
 //!
-//! The order of writing is what makes any moment a good one to die: first a generation's champion, births and report
-//! and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a checkpoint
-//! never knows more than the logs, and what the logs know beyond it is evolved again, the same. Where islands do not
-//! wait for each other, what they took in is recorded before a generation is evolved with it.
+//! The order of writing is what makes any moment a good one to die: first a generation's champion, births
+//! and report and the outbox that it sends, each durable before the next, then the checkpoint that needs them. So a
+//! checkpoint never knows more than the logs, and what the logs know beyond it is evolved again, the same. Where
+//! islands do not wait for each other, what they took in is recorded before a generation is evolved with it.
 
 use super::checkpoint::Checkpoint;
 use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};

@@ -1,11 +1,11 @@
 //! What a run leaves on disk, so that nothing is lost.
 //!
 //! [`run_dir`] says where everything lies, and whose it is, [`experiment_dir`] the same of an experiment;
-//! [`mod@file`] opens what may be anything; [`atomic`] writes files that are there whole or not at all;
-//! [`record_log`] appends records, each with its checksum, and is what an island's [`journal`] and its logs of
-//! champions and generations are made of; [`checkpoint`] is an island's whole state, of which [`checkpoints`] keeps
-//! the newest two. A [`Logbook`] is all of it together, and what an island begins with after its death; it believes
-//! no state that could not be one of the run.
+//! [`mod@file`] opens what may be anything; [`atomic`] writes files that are there whole or not at all; [`record_log`]
+//! appends records, each with its checksum, and is what an island's [`journal`] and its logs of champions and
+//! generations are made of; [`checkpoint`] is an island's whole state, of which [`checkpoints`] keeps the newest two. A
+//! [`Logbook`] is all of it together, and what an island begins with after its death; it believes no state that could
+//! not be one of the run.
 //!
 //! Architecture invariant: this alone imports bincode. What a file says is believed only after its checksum.
 

@@ -37,8 +37,8 @@ impl<G: Gene> Harbour<G> {
     /// killed launchers have left is removed first.
     ///
     /// # Errors
-    /// If the run asks for more migrants, edges, memory or files than there can be, its id is in use, or something cannot be
-    /// made.
+    /// If the run asks for more migrants, edges, memory or files than there can be, its id is in use, or something
+    /// cannot be made.
     pub fn create(domain: &Domain, archipelago: &Archipelago) -> Result<Self, TransportError> {
         let plan = Plan::new(domain, archipelago)?;
         Domain::remove_abandoned();

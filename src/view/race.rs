@@ -44,14 +44,22 @@ fn marshal(track: Track) -> EyeControls3D {
 
 /// An eye outside of a terrain, on the side where creatures begin, that sees them and the middle.
 fn visitor(terrain: &Terrain) -> EyeControls3D {
+    let [position, target] = visit(terrain);
+    EyeControls3D::new()
+        .with_position(position)
+        .with_look_target(target)
+        .with_eye_up([0.0, 0.0, 1.0])
+}
+
+/// Where that eye is, and what it looks at.
+fn visit(terrain: &Terrain) -> [[f32; 3]; 2] {
     let half_m = terrain.half_m().cast::<f32>();
     let far_m = half_m.max();
     let above_m = terrain.wall_top_m() as f32 + 0.45 * far_m;
     let middle_m = terrain.height_m(0.0, 0.0) as f32;
-    EyeControls3D::new()
-        .with_position([0.75 * half_m.x, -half_m.y - 0.5 * far_m, above_m])
-        .with_look_target([0.0, -0.35 * half_m.y, 0.25 * middle_m])
-        .with_eye_up([0.0, 0.0, 1.0])
+    let side = if terrain.start_m()[1] > 0.0 { 1.0 } else { -1.0 };
+    let position = [0.75 * half_m.x, side * (half_m.y + 0.5 * far_m), above_m];
+    [position, [0.0, side * 0.35 * half_m.y, 0.25 * middle_m]]
 }
 
 /// How far ahead the frame reaches before it has grown: of many lanes the view has room for more.
@@ -163,11 +171,17 @@ mod tests {
     }
 
     #[test]
+    fn an_eye_on_a_terrain_stands_beyond_the_wall_that_creatures_begin_near() {
+        for (start_m, side) in [([0.0, -7.0], -1.0), ([0.0, 8.0], 1.0), ([3.0, 0.0], -1.0)] {
+            let terrain = Terrain::new([21, 21], 1.0, vec![0.0; 21 * 21], start_m).unwrap();
+            let [eye, target] = visit(&terrain);
+            assert!(side * eye[1] > 10.0 && (0.0..10.0).contains(&(side * target[1])), "{eye:?}");
+        }
+    }
+
+    #[test]
     fn the_frame_grows_when_all_lanes_of_a_slot_are_known_and_never_shrinks() {
-        let scale = |frame: Transform3D| {
-            let text = format!("{:?}", frame.scale);
-            text.clone()
-        };
+        let scale = |frame: Transform3D| format!("{:?}", frame.scale);
         let mut field = Field::new(Track::of(2));
         assert!(field.learn(0, 2.0).is_none());
         assert!(field.learn(1, 8.0).is_none(), "one lane is ahead");

@@ -3,10 +3,11 @@
 //! Here a run is made, or found again by [`resume`]. Then a [`supervisor`] sees it to its end: it starts the
 //! [`crew`], child processes each ([`kin`]), hears what they say, and starts again who dies, unless that has no
 //! hope ([`mortality`]). What happens is told and logged by a [`chronicle`], and how far it got is shown by
-//! [`progress`].
+//! [`progress`]; at the end it is said how to [`film`] the champion.
 
 mod chronicle;
 mod crew;
+mod film;
 mod kin;
 mod mortality;
 mod progress;
@@ -17,7 +18,7 @@ use super::Failure;
 use super::catalogue::{Kind, Visitor};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
-use super::console::{print, say};
+use super::console::{print, quoted, say};
 use super::kinship::Ear;
 use super::result::{self, Summary};
 use super::subject::Subject;
@@ -108,7 +109,7 @@ impl Visitor for GoOn<'_> {
         if let Some(summary) = result::finished(&dir, &config, &problem) {
             // Its launcher may have been killed over its last words.
             Domain::remove_abandoned();
-            present(&summary, &args.output);
+            present(&summary, &config, &args.output);
             return Ok(());
         }
         let problem = seeds::founded(&dir, &config, problem)?.problem;
@@ -153,7 +154,7 @@ impl<P: Subject> Launch<P> {
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
         let closed = harbour.close();
         drop(claim);
-        present(&summary?, output);
+        present(&summary?, &config, output);
         Ok(closed?)
     }
 }
@@ -222,28 +223,22 @@ fn run_dir(out: Option<&Path>, config: &Config) -> RunDir {
     )
 }
 
-/// What of a command says on which terrain a run was, if it kept one.
-fn terrain_flag(run_dir: &Path) -> String {
-    let kept = RunDir::at(run_dir).terrain();
-    if kept.exists() { format!(" --terrain {}", kept.display()) } else { String::new() }
-}
-
 fn entropy() -> Result<u64, Failure> {
     rand::rngs::SysRng
         .try_next_u64()
         .map_err(|error| Failure::failed(format!("the system has no randomness: {error}")))
 }
 
-fn present(summary: &Summary, output: &OutputArgs) {
+fn present(summary: &Summary, config: &Config, output: &OutputArgs) {
     if output.json {
         let json = serde_json::to_string(summary);
         print(&json.expect("a summary is plain data, its numbers finite"));
     } else {
-        show(summary);
+        show(summary, config);
     }
 }
 
-fn show(summary: &Summary) {
+fn show(summary: &Summary, config: &Config) {
     print(&format!(
         "best     {}, island {}\nfound in {} evaluations, {:.1} a second; {} failed\n\
          reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}",
@@ -256,15 +251,14 @@ fn show(summary: &Summary) {
         summary.digest,
         summary.run_dir.display(),
     ));
-    let genome = summary.best_genome.display();
-    match (&summary.task, &summary.profile) {
-        (Some(task), Some(profile)) => print(&format!(
-            "film     islands replay {genome} --task {task} --profile {profile}{} --out champion.rrd",
-            terrain_flag(&summary.run_dir)
-        )),
-        _ => print(&format!("genome   {genome}")),
+    match config.problem {
+        Kind::Creatures => {
+            let command = film::command(&RunDir::at(&summary.run_dir), config);
+            print(&format!("film     {command}"));
+        }
+        _ => print(&format!("genome   {}", summary.best_genome.display())),
     }
     if let Some(recording) = &summary.recording {
-        print(&format!("view     rerun {}", recording.display()));
+        print(&format!("view     rerun {}", quoted(recording)));
     }
 }

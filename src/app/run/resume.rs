@@ -2,7 +2,7 @@
 
 use super::super::Failure;
 use super::super::config::Config;
-use super::super::console::Stopwatch;
+use super::super::console::{Stopwatch, quoted};
 use super::super::settings::SettingArgs;
 use crate::archipelago::ExchangeMode;
 use crate::evolution::Gene;
@@ -88,12 +88,7 @@ pub fn way_back(failure: Failure, dir: &RunDir) -> Failure {
 
 /// The command that goes on with a run, as a shell takes it.
 pub fn command(dir: &RunDir) -> String {
-    let path = dir.path().display().to_string();
-    let is_plain = |c: char| c.is_alphanumeric() || "/._-+:@%".contains(c);
-    if path.chars().all(is_plain) {
-        return format!("islands resume {path}");
-    }
-    format!("islands resume '{}'", path.replace('\'', r"'\''"))
+    format!("islands resume {}", quoted(dir.path()))
 }
 
 /// Requires that the folder of a run under way is where it was. Its processes hold their files open and would

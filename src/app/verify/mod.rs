@@ -1,8 +1,8 @@
 //! `islands verify`: whether a run's folder holds what it claims.
 //!
-//! `records` reads what each island left, and `rules` says what must hold of it; `ancestry` breeds the champions
-//! again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it with the files of
-//! the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
+//! `records` reads what each island left, and `rules` says what must hold of it; `ancestry`
+//! breeds the champions again; `arrivals` evolves again where islands did not wait for each other; `claims` compares it
+//! with the files of the whole run; `retrial` simulates again. Each finds its `check`s, the rows of the table.
 //!
 //! Nothing is written, and a folder may hold anything: what is wrong is a sentence, not an end.
 
@@ -43,7 +43,7 @@ pub fn run(args: &VerifyArgs) -> Result<(), Failure> {
             let (dir, config, thorough) = (&dir, &config, args.thorough);
             pool(args)?.install(|| config.visit(Examination { dir, config, thorough }))
         }
-        Err(reason) => Verdict::without_configuration(&dir, reason),
+        Err(obstacle) => Verdict::without_configuration(obstacle),
     };
     let wrong = verdict.wrong();
     if !wrong.is_empty() {
@@ -70,8 +70,22 @@ fn pool(args: &VerifyArgs) -> Result<rayon::ThreadPool, Failure> {
         .map_err(|error| Failure::failed(format!("cannot start threads: {error}")))
 }
 
-/// The configuration of the run in a folder, or what is wrong with it.
-fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
+/// A file without which nothing can be said of a run.
+struct Obstacle {
+    /// The file's name.
+    file: &'static str,
+    /// What is wrong with it, a sentence.
+    reason: String,
+}
+
+impl Obstacle {
+    fn configuration(reason: impl Into<String>) -> Self {
+        Self { file: "run.toml", reason: reason.into() }
+    }
+}
+
+/// The configuration of the run in a folder, or what is wrong with what it is read from.
+fn configuration(dir: &RunDir) -> Result<Result<Config, Obstacle>, Failure> {
     // Opening a pipe would wait for its other end.
     if !dir.path().is_dir() {
         return Err(Failure::no_run(dir));
@@ -81,9 +95,8 @@ fn configuration(dir: &RunDir) -> Result<Result<Config, String>, Failure> {
         Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
             Err(Failure::no_run(dir))
         }
-        Err(error) => Ok(Err(error.to_string())),
-        Ok(text) => Ok(launched(&text, dir)
-            .map_err(|reason| format!("{} is damaged: {reason}", dir.config().display()))),
+        Err(error) => Ok(Err(Obstacle::configuration(error.to_string()))),
+        Ok(text) => Ok(launched(&text, dir)),
     }
 }
 
@@ -100,12 +113,16 @@ fn at_rest(dir: &RunDir) -> Result<(), Failure> {
 }
 
 /// The configuration of a run that was launched.
-fn launched(text: &str, dir: &RunDir) -> Result<Config, String> {
-    let mut config = Config::parse(text)?;
-    terrains::read(&mut config, dir).map_err(|failure| failure.message)?;
-    config.check().map_err(|failure| failure.message)?;
+fn launched(text: &str, dir: &RunDir) -> Result<Config, Obstacle> {
+    let damaged = |reason: &str| {
+        Obstacle::configuration(format!("{} is damaged: {reason}", dir.config().display()))
+    };
+    let mut config = Config::parse(text).map_err(|reason| damaged(&reason))?;
+    terrains::read(&mut config, dir)
+        .map_err(|failure| Obstacle { file: "terrain.csv", reason: failure.message })?;
+    config.check().map_err(|failure| damaged(&failure.message))?;
     if !config.is_launched() {
-        return Err("it names no seed or no launch, as that of every run does".to_owned());
+        return Err(damaged("it names no seed or no launch, as that of every run does"));
     }
     Ok(config)
 }
@@ -204,12 +221,12 @@ struct Report<'a> {
 }
 
 impl Verdict {
-    /// Without its configuration nothing can be said of a run.
-    fn without_configuration(dir: &RunDir, reason: String) -> Self {
-        let mut check = Check::of("run.toml");
+    /// Without its configuration, and what creatures stand on, nothing can be said of a run.
+    fn without_configuration(Obstacle { file, reason }: Obstacle) -> Self {
+        let mut check = Check::of(file);
         check.damaged(reason);
         let mut others = Check::of("all else");
-        others.note(format!("not checked: {} is damaged", dir.config().display()));
+        others.note(format!("not checked: {file} is damaged"));
         let checks = vec![check, others];
         Self { finished: false, digest: None, champions: 0, checks, retrial: None }
     }

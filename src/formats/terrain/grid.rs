@@ -41,7 +41,7 @@ pub fn read(text: &str, sizing: &Sizing) -> Result<Terrain, TerrainFileError> {
     for _ in 0..rows {
         let (number, line) = lines.next().ok_or(TerrainFileError::Grid(rows + 1))?;
         let before = heights_m.len();
-        for height_m in line.split(',') {
+        for height_m in line.split(',').take(columns + 1) {
             let height_m: f32 = height_m.parse().map_err(|_| TerrainFileError::Grid(number))?;
             heights_m.push(f64::from(height_m));
         }

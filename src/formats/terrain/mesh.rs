@@ -10,6 +10,10 @@ use nalgebra::{Vector2, Vector3};
 
 /// The most vertices, and the most triangles.
 pub const ITEMS_MAX: usize = 1_000_000;
+/// The most corners of a face.
+const CORNERS_MAX: usize = 1_000;
+/// The most characters of a word that are shown when it is wrong.
+const SHOWN_MAX: usize = 40;
 /// The cells of the grid along the longer side: with the course's arena, a quarter of a metre each.
 const CELLS: usize = 80;
 /// The most points that are looked at in all, for all triangles together.
@@ -21,8 +25,8 @@ const EDGE_SHARE: f64 = 1e-9;
 
 /// Reads a mesh.
 pub fn read(text: &str, sizing: &Sizing) -> Result<Terrain, TerrainFileError> {
-    let mesh = Mesh::parse(text)?.resized(sizing)?;
-    mesh.sample()?.terrain(sizing)
+    let mesh = Mesh::parse(text)?.widened(sizing)?;
+    raised(mesh.sample()?, sizing).terrain(sizing)
 }
 
 /// Triangles.
@@ -55,7 +59,11 @@ impl Mesh {
     }
 
     fn face<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), String> {
-        let corners = words.map(|word| self.corner(word)).collect::<Result<Vec<_>, _>>()?;
+        let corners = words.take(CORNERS_MAX + 1).map(|word| self.corner(word));
+        let corners = corners.collect::<Result<Vec<_>, _>>()?;
+        if corners.len() > CORNERS_MAX {
+            return Err(format!("a face has more than {CORNERS_MAX} corners: split it"));
+        }
         if corners.len() < 3 {
             return Err(format!(
                 "a face has {} corners; it must have three or more",
@@ -70,7 +78,8 @@ impl Mesh {
     /// The vertex of a corner such as 3, 3/1/2 or -1, which is the one before.
     fn corner(&self, word: &str) -> Result<usize, String> {
         let number = word.split('/').next().unwrap_or_default();
-        let number: i64 = number.parse().map_err(|_| format!("{word:?} is no vertex's number"))?;
+        let number: i64 =
+            number.parse().map_err(|_| format!("{} is no vertex's number", shown(word)))?;
         let count = self.vertices.len() as i64;
         let index = if number < 0 { count.checked_add(number) } else { number.checked_sub(1) };
         match index {
@@ -89,19 +98,15 @@ impl Mesh {
         self.corners_m().fold(none, |(low, high), corner| (low.inf(&corner), high.sup(&corner)))
     }
 
-    /// The mesh in the size that the user wants.
-    fn resized(mut self, sizing: &Sizing) -> Result<Self, TerrainFileError> {
+    /// The mesh in the width that the user wants.
+    fn widened(mut self, sizing: &Sizing) -> Result<Self, TerrainFileError> {
         let (low, high) = self.bounds();
         let size = high - low;
         if !(size.x > 0.0 && size.y > 0.0) {
             return Err(TerrainFileError::NoFaces);
         }
         let flat = sizing.width_m.map_or(1.0, |width_m| width_m / size.x);
-        let up = match sizing.height_m {
-            Some(height_m) if size.z > 0.0 => height_m / size.z,
-            _ => 1.0,
-        };
-        let scale = Vector3::new(flat, flat, up);
+        let scale = Vector3::new(flat, flat, 1.0);
         self.vertices.iter_mut().for_each(|vertex| *vertex = vertex.component_mul(&scale));
         Ok(self)
     }
@@ -130,6 +135,19 @@ impl Mesh {
         heights_m.iter_mut().filter(|it| !it.is_finite()).for_each(|it| *it = lowest_m);
         Ok(Grid { points, step_m, heights_m })
     }
+}
+
+/// The surface in the height that the user wants, its lowest point where it is. What a mesh has below its surface
+/// counts for nothing.
+fn raised(mut grid: Grid, sizing: &Sizing) -> Grid {
+    let heights_m = grid.heights_m.iter().copied();
+    let lowest_m = heights_m.clone().fold(f64::INFINITY, f64::min);
+    let own_m = heights_m.fold(f64::NEG_INFINITY, f64::max) - lowest_m;
+    if let Some(height_m) = sizing.height_m.filter(|_| own_m > 0.0) {
+        let up = height_m / own_m;
+        grid.heights_m.iter_mut().for_each(|it| *it = lowest_m + up * (*it - lowest_m));
+    }
+    grid
 }
 
 /// Raises the points below a triangle, whose places are measured in cells, and returns how many were looked at.
@@ -167,11 +185,20 @@ fn vertex<'a>(words: impl Iterator<Item = &'a str>) -> Result<Vector3<f64>, Stri
     let mut words = words.fuse();
     for (number, most) in numbers.iter_mut().zip([PLACE_MAX, PLACE_MAX, HEIGHT_M_MAX]) {
         let word = words.next().ok_or("a vertex has three numbers: x, y and, upwards, z")?;
-        let place: f64 = word.parse().map_err(|_| format!("{word:?} is no number"))?;
+        let place: f64 = word.parse().map_err(|_| format!("{} is no number", shown(word)))?;
         if !(-most..=most).contains(&place) {
+            let place = shown(word);
             return Err(format!("{place} is no place: it must be from -{most} to {most}"));
         }
         *number = place;
     }
     Ok(numbers.into())
+}
+
+/// The beginning of a word of a file, which may be of any length.
+fn shown(word: &str) -> String {
+    let mut characters = word.chars();
+    let beginning: String = characters.by_ref().take(SHOWN_MAX).collect();
+    let more = if characters.next().is_some() { "…" } else { "" };
+    format!("{beginning:?}{more}")
 }

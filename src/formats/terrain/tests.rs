@@ -121,8 +121,8 @@ fn what_is_no_terrain_is_refused_with_a_sentence() {
         (b"v 0 0 0\nv 1 0 0\nv 0 1 0\n".to_vec(), PLAIN, "it has no faces"),
         (b"v 0 0 0\nv 1 0 0\nv 1 0 1\nf 1 2 3\n".to_vec(), PLAIN, "it has no faces"),
         (b"v 0 0\n".to_vec(), PLAIN, "line 1: a vertex has three numbers"),
-        (b"v 0 0 NaN\n".to_vec(), PLAIN, "line 1: NaN is no place"),
-        (b"v 0 inf 0\n".to_vec(), PLAIN, "line 1: inf is no place"),
+        (b"v 0 0 NaN\n".to_vec(), PLAIN, "line 1: \"NaN\" is no place"),
+        (b"v 0 inf 0\n".to_vec(), PLAIN, "line 1: \"inf\" is no place"),
         (b"v 0 0 x\n".to_vec(), PLAIN, "line 1: \"x\" is no number"),
         (b"v 0 0 0\nf 1 1\n".to_vec(), PLAIN, "line 2: a face has 2 corners"),
         (b"v 0 0 0\nf 1 2 1\n".to_vec(), PLAIN, "line 2: there is no vertex 2"),
@@ -136,6 +136,35 @@ fn what_is_no_terrain_is_refused_with_a_sentence() {
     for (file, sizing, begins) in files {
         let error = read(&file, &sizing).map(|_| begins).unwrap_err().to_string();
         assert!(error.starts_with(begins), "{error}, not {begins}");
+    }
+}
+
+#[test]
+fn the_height_that_is_wished_for_is_that_of_the_surface_whatever_is_below_it() {
+    let text = "v 0 0 20\nv 4 0 20\nv 4 4 21\nv 0 4 21\nv 0 0 -30\nv 4 0 -30\nv 4 4 -30\nv 0 4 -30\n\
+        f 1 2 3 4\nf 8 7 6 5\n";
+    let sizing = Sizing { height_m: Some(3.0), ..PLAIN };
+    let terrain = super::read(text.as_bytes(), &sizing).unwrap();
+    assert_eq!(terrain.height_m(0.0, -2.0), 20.0);
+    assert!((terrain.height_m(0.0, 2.0) - 23.0).abs() < 1e-5, "{}", terrain.height_m(0.0, 2.0));
+}
+
+#[test]
+fn lines_of_any_length_are_refused_at_their_first_words_and_hardly_quoted() {
+    let face = format!("v 0 0 0\nf{}\n", " 1".repeat(500_000));
+    let row = format!("islands-terrain-1,2,2,1,0,0\n0{}\n0,0\n", ",0".repeat(500_000));
+    let long = "é".repeat(500_000);
+    let files = [
+        (face, "line 2: a face has more than 1000 corners: split it"),
+        (row, "line 2: it is not as a run writes it"),
+        (format!("v 0 0 {long}\n"), "line 1: \""),
+        (format!("v 0 0 1{}\n", "0".repeat(300)), "line 1: \"10000"),
+        (format!("v 0 0 0\nf 1 1 {long}\n"), "line 2: \""),
+    ];
+    for (file, begins) in files {
+        let error = read(file.as_bytes(), &PLAIN).map(|_| begins).unwrap_err().to_string();
+        assert!(error.starts_with(begins), "{error}, not {begins}");
+        assert!(error.chars().count() < 120, "{error}");
     }
 }
 

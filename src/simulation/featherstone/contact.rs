@@ -1,14 +1,14 @@
 //! Points of a body that touch the ground, or will before the step is over.
 //!
-//! A box touches with its corners, a cylinder with four points of each rim: the lowest one, the one across, and the
-//! two between them; a sphere with its lowest point, a capsule with those of its ends.
+//! On a plane a box touches with its corners, a cylinder with four points of each rim: the lowest one, the one across,
+//! and the two between them; a sphere with its lowest point, a capsule with those of its ends.
 
 use super::kinematics::Place;
 use super::model::{Outline, Surface};
 use super::spatial::Spatial;
 use nalgebra::{Matrix3, Vector3};
 
-/// The most points that a solid touches with.
+/// The most points that a solid touches a plane with.
 pub const POINTS_PER_SOLID: usize = 8;
 
 /// A point is looked after when it is nearer to the ground than this, now or by the end of the step, in metres. It
@@ -132,7 +132,7 @@ fn find(surfaces: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
         let place = &stance.places[surface.link];
         let centre_m = place.origin_m + place.rotation * surface.centre_m;
         if stance.can_reach(surface, &centre_m) {
-            let (points, count) = surface.points(&centre_m, &place.rotation, &Level);
+            let (points, count) = surface.points(&centre_m, &place.rotation);
             for (corner, point_m) in points.iter().enumerate().take(count) {
                 if let Some(height_m) = stance.touches(surface.link, point_m) {
                     let name = index * POINTS_PER_SOLID + corner;
@@ -163,21 +163,20 @@ impl Stance<'_> {
 }
 
 impl Surface {
-    /// The points that it can touch with, from the reference, and how many of them there are.
-    pub fn points(
+    /// The points that it can touch a plane with, from the reference, and how many of them there are.
+    fn points(
         &self,
         centre_m: &Vector3<f64>,
         rotation: &Matrix3<f64>,
-        facing: &impl Facing,
     ) -> ([Vector3<f64>; POINTS_PER_SOLID], usize) {
         let up = rotation * self.axes.column(2);
         let end_m = up * self.half_m.z;
         if let Outline::Ends(count) = self.outline {
-            let (lowest_m, to_end_m) = self.ends(centre_m, &up, facing);
+            let (lowest_m, to_end_m) = self.ends(centre_m, &up, &Level);
             let side_m = |corner: usize| if corner == 0 { to_end_m } else { -to_end_m };
             return (std::array::from_fn(|corner| lowest_m + side_m(corner)), count);
         }
-        let spokes_m = self.spokes(&up, rotation, facing);
+        let spokes_m = self.spokes(&up, rotation, &Level);
         let points = std::array::from_fn(|corner| {
             let spoke_m = spokes_m[corner % 4];
             centre_m + if corner < 4 { spoke_m + end_m } else { spoke_m - end_m }

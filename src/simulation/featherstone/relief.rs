@@ -1,8 +1,9 @@
 //! Points of a body that touch a terrain or its walls.
 //!
-//! Points touch the triangle that is below them. Between those at their ends, solids touch with points a third of
-//! their length apart, since a rock may be where a plane is not. Walls are boxes: from within they are touched with
-//! their sides, from above with their tops.
+//! Points touch the triangle that is below them; a round solid has a lowest point for the slope below it, and more for
+//! those beside it that face another way, which it meets before its centre is over them. Between those at their ends,
+//! solids touch with points a third of their length apart, since a rock may be where a plane is not. Walls are boxes:
+//! from within they are touched with their sides, from above with their tops.
 
 use super::super::terrain::Terrain;
 use super::contact::{Facing, Footing, MARGIN_M, Stance, Touch};
@@ -14,8 +15,16 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 const POINTS: usize = 16;
 /// The places, in half lengths.
 const RINGS: [f64; 4] = [1.0, 1.0 / 3.0, -1.0 / 3.0, -1.0];
-/// A point may touch the ground, a wall to the east or the west, and one to the north or the south.
-const GROUNDS: usize = 3;
+/// A point may touch the ground, a wall to the east or the west, one to the north or the south, and of a round solid a
+/// slope beside it.
+const GROUNDS: usize = 4;
+/// The name of the last of these.
+const BESIDE: usize = 3;
+/// Where round solids look for slopes beside them, in reaches along x and y.
+const SIDES: [[f64; 2]; 4] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+/// The cosine of the least angle that such a slope has with the one below, 3.6°: what is less steep is seen soon
+/// enough.
+const BEND: f64 = 0.998;
 
 /// A terrain to stand on.
 #[derive(Debug, Clone, Copy)]
@@ -117,13 +126,37 @@ impl Foot<'_> {
 
     fn touch_ground(&mut self, terrain: &Terrain) {
         let centre_m = self.stance.reference_m + self.centre_m;
-        let facing = Slope::towards(terrain.facet(centre_m.x, centre_m.y).normal);
-        let (points, count) = self.points(&facing);
+        let below = terrain.facet(centre_m.x, centre_m.y).normal;
+        self.touch_facets(terrain, below, 0);
+        if let Outline::Ends(_) = self.surface.outline {
+            self.touch_beside(terrain, below);
+        }
+    }
+
+    /// Touches slopes beside a round solid. The points of other solids are where they are whatever is below; a round
+    /// one has a lowest point for each way that the ground faces.
+    fn touch_beside(&mut self, terrain: &Terrain, below: Vector3<f64>) {
+        let centre_m = self.stance.reference_m + self.centre_m;
+        let mut seen = [below; 1 + SIDES.len()];
+        for (side, [x, y]) in SIDES.into_iter().enumerate() {
+            let [x_m, y_m] = [(centre_m.x, x), (centre_m.y, y)]
+                .map(|(at_m, side)| at_m + side * self.surface.reach_m);
+            let up = terrain.facet(x_m, y_m).normal;
+            if seen.iter().all(|other| other.dot(&up) < BEND) {
+                seen[1 + side] = up;
+                self.touch_facets(terrain, up, BESIDE * POINTS + side * RINGS.len());
+            }
+        }
+    }
+
+    /// Touches the ground with the points that are lowest where it faces a way, the first of which has a name.
+    fn touch_facets(&mut self, terrain: &Terrain, up: Vector3<f64>, first: usize) {
+        let (points, count) = self.points(&Slope::towards(up));
         for (corner, point_m) in points.iter().enumerate().take(count) {
             let at_m = self.stance.reference_m + point_m;
             let facet = terrain.facet(at_m.x, at_m.y);
             let height_m = (at_m.z - facet.height_m) * facet.normal.z;
-            self.touch(corner, point_m, height_m, facet.normal);
+            self.touch(first + corner, point_m, height_m, facet.normal);
         }
     }
 

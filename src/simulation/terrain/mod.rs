@@ -21,7 +21,8 @@ pub const POINTS_MAX: usize = 1_025;
 pub const STEP_M: [f64; 2] = [0.01, 100.0];
 /// No point may be further above or below zero than this, in metres.
 pub const HEIGHT_M_MAX: f64 = 1_000.0;
-/// No cell may be steeper than this: height for way. What is steeper is a wall, and nothing stands on it.
+/// From no point to the next one along x or y may it be steeper than this: height for way. What is steeper is a wall,
+/// and nothing stands on it.
 pub const STEEPNESS_MAX: f64 = 20.0;
 /// The height of the walls above the highest point of the edge, in metres.
 pub const WALL_M: f64 = 1.0;
@@ -105,7 +106,7 @@ pub enum TerrainError {
     /// A height is no number, or too great.
     #[error("a height is {0} m; it must be a number from -{HEIGHT_M_MAX} to {HEIGHT_M_MAX}")]
     Height(f64),
-    /// A cell is a cliff.
+    /// There is a cliff from one point to the next.
     #[error(
         "it rises by {rise_m} m from one point to the next, {step_m} m on: nothing stands on what is steeper than \
          {STEEPNESS_MAX} : 1; make it wider or lower"

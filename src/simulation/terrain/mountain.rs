@@ -15,7 +15,8 @@ const HEIGHT_M: f64 = 5.0;
 const WIDTH_M2: f64 = 18.0;
 /// The greatest height of a rock on it, in metres.
 const ROCK_M: f64 = 0.1;
-/// There are rocks of all sizes where the hill is so high, in metres, and the smaller the less it is: its foot is smooth.
+/// There are rocks of all sizes where the hill is so high, in metres, and the smaller the less it is: its foot is
+/// smooth.
 const ROCKY_M: f64 = 1.0;
 /// The seed of its rocks: it is the same mountain in every run.
 const SEED: u64 = 20;

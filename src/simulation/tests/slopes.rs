@@ -128,6 +128,42 @@ fn a_ball_rolls_down_a_slope_without_slipping() {
 }
 
 #[test]
+fn a_ball_that_runs_into_a_slope_neither_sinks_in_nor_is_thrown_up() {
+    const RADIUS_M: f64 = 0.15;
+    const SPEED_M_S: f64 = 3.0;
+    let mut ball = sled();
+    ball.morphology.links[0].shape = Shape::Sphere { radius_m: RADIUS_M };
+    for way in [Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y()] {
+        let ahead_m = |i: i32| -> f64 {
+            let at_m = Vector3::new(f64::from(i % 41 - 20), f64::from(i / 41 - 20), 0.0) * 0.5;
+            at_m.dot(&way).max(0.0)
+        };
+        let start_m = way * -0.6 + way.cross(&Vector3::z()) * 0.1;
+        let heights_m = (0..41 * 41).map(ahead_m).collect();
+        let terrain = Terrain::new([41, 41], 0.5, heights_m, [start_m.x, start_m.y]).unwrap();
+        for engine in Engine::ALL {
+            let trial =
+                Trial { start: Start::RootAt(RADIUS_M), ..TRIAL.on(terrain.clone().keep()) };
+            let mut lab = Lab::new(engine, &ball, trial);
+            lab.run(0.1);
+            lab.world.kick(way * SPEED_M_S, Vector3::zeros());
+            let (mut deepest_m, mut highest_m) = (0.0_f64, 0.0_f64);
+            for _ in 0..480 {
+                lab.step();
+                let at_m = lab.centre_of_mass();
+                let over_slope_m = (at_m.z - at_m.dot(&way)) * std::f64::consts::FRAC_1_SQRT_2;
+                deepest_m = deepest_m.max(RADIUS_M - over_slope_m.min(at_m.z));
+                highest_m = highest_m.max(at_m.z - RADIUS_M);
+            }
+            assert!(deepest_m < 0.015, "{engine}: {deepest_m} m deep towards {way}");
+            let allowed_m = SPEED_M_S * SPEED_M_S / (2.0 * GRAVITY_M_S2);
+            assert!(highest_m < allowed_m, "{engine}: {highest_m} m high towards {way}");
+            assert!(highest_m > 0.02, "{engine}: {highest_m} m high towards {way}");
+        }
+    }
+}
+
+#[test]
 fn what_slides_over_edges_between_triangles_does_not_stumble() {
     for engine in Engine::ALL {
         let mut lab = Lab::new(engine, &sled(), ramp(0.0));
@@ -189,6 +225,26 @@ fn a_box_rests_on_a_wall_and_falls_off_it_when_it_is_pushed() {
         lab.run(1.5);
         let below_m = lab.centre_of_mass();
         assert!(below_m.z < 0.3 && below_m.x < 1.9, "{engine}: {below_m}");
+    }
+}
+
+#[test]
+fn who_begins_beside_a_cliff_and_rolls_away_from_it_is_no_athlete() {
+    // It falls gently towards the south; in the north-east corner there is a cliff of five metres.
+    let height_m = |column: usize, row: usize| {
+        0.15 * row as f64 + if column > 13 && row > 12 { 5.0 } else { 0.0 }
+    };
+    let heights_m = (0..21 * 21).map(|i| height_m(i % 21, i / 21)).collect();
+    let terrain = Terrain::new([21, 21], 0.5, heights_m, [1.2, 1.6]).unwrap();
+    let mut ball = sled();
+    ball.morphology.links[0].shape = Shape::Sphere { radius_m: 0.25 };
+    // It touches neither the cliff nor the ground, and the cliff is within its reach.
+    let start = Start::RootAt(0.27);
+    let trial = Trial { start, scored_s: 3.0, ..TRIAL.on(terrain.keep()) };
+    for engine in Engine::ALL {
+        let measured = simulate(&ball, &trial, engine);
+        let rolled_m = measured.map(|it| (it.centre_last_m - it.centre_first_m).y);
+        assert!(rolled_m.is_ok_and(|it| it < -1.0), "{engine}: {rolled_m:?}");
     }
 }
 
