@@ -1,4 +1,4 @@
-//! The whole of a run in one struct: [`mod@file`] reads and writes it.
+//! The whole of a run in one struct: `file` reads and writes it, `check` says whether it can be run.
 
 mod check;
 mod file;

@@ -28,7 +28,7 @@ pub struct Sizing {
     pub start_m: Option<[f64; 2]>,
 }
 
-/// Reads a terrain: a PNG, an OBJ or what [`write`] writes, by what is in it.
+/// Reads a terrain: a PNG, an OBJ or what [`write`](fn@write) writes, by what is in it.
 ///
 /// # Errors
 /// What is wrong with it.
