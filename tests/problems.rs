@@ -126,7 +126,7 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
         problem = "royal-road"
         dimensions = 64
         block = 8
-        selection = "tournament:5"
+        selection = "tournament:3"
         elites = 2
         survival = "generational"
         crossover = "one-point"

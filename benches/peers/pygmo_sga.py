@@ -8,7 +8,7 @@ Minimises Rastrigin and Ackley of 30 variables, ten seeds each, 500,000 evaluati
 of 50 individuals that exchange on a ring every five generations. A run has succeeded when its error is at most 0.01;
 how many evaluations that took is known of `islands` to a generation (200) and of pygmo to an exchange (1,000). pygmo's `sga` is run as it is by default, and
 with the operators that ours has by default (simulated binary crossover, eta 15, of nine couples in ten; polynomial
-mutation, eta 20, of one variable in 30; tournaments of 3); each island keeps its best, as sga does.
+mutation, eta 20, of one variable in 30; tournaments of 5); each island keeps its best, as sga does.
 
 pygmo's own functions have their optimum in the middle of the domain, and its `translate` moves both together; that of
 `islands` lies anywhere in the middle 80 %. None of the operators knows of a middle, so that this is a gift to pygmo only in
@@ -42,7 +42,7 @@ SETTINGS = {
         "mutation": "polynomial",
         "param_m": 20.0,
         "selection": "tournament",
-        "param_s": 3,
+        "param_s": 5,
     },
 }
 

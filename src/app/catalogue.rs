@@ -7,7 +7,7 @@ use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::choice;
 use crate::creature::gene::PARAMETER_COUNT;
-use crate::evolution::{Crossover, Mutation, cma};
+use crate::evolution::{Crossover, Mutation, Selection, cma};
 use crate::problems::{Benchmark, Bits, Function, Pattern};
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -124,6 +124,7 @@ impl Config {
             Kind::Function(_) => Self {
                 generations: 1_000,
                 // Of what was tried, the least evaluations to the bottom of Rastrigin and Ackley: benches/RESULTS.md.
+                selection: Selection::Tournament { size: 5 },
                 crossover: Crossover::Sbx { eta: 15.0 },
                 mutation: Mutation::Polynomial { eta: 20.0 },
                 point_amount: 1.0,

@@ -58,7 +58,7 @@ pub struct SettingArgs {
     #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
     pub max_links: Option<usize>,
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
-    /// [default: tournament:5]
+    /// [default: tournament:3]
     #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
     pub selection: Option<Selection>,
     /// How many of the best live on unchanged [default: 2]

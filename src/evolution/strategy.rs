@@ -35,7 +35,7 @@ impl Default for Strategy {
             population: 24,
             elites: 2,
             reproduction: Reproduction::Parents,
-            selection: Selection::Tournament { size: 5 },
+            selection: Selection::Tournament { size: 3 },
             variation: Variation::default(),
             survival: Survival::Generational,
             adaptation: Adaptation::None,
