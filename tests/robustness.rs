@@ -125,15 +125,19 @@ fn a_robust_evaluation_costs_all_of_its_trials() {
     assert_eq!(problem.steps(), steps);
 }
 
+fn ball() -> Creature {
+    let ball =
+        Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
+    Creature {
+        morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
+        controller: Controller { period_s: 0.1, motors: vec![None] },
+    }
+}
+
 /// A ball rolls on for ever, and whoever pushes it moves it by metres.
 #[test]
 fn a_ball_gains_nothing_by_being_pushed() {
-    let ball =
-        Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
-    let body = Creature {
-        morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
-        controller: Controller { period_s: 0.1, motors: vec![None] },
-    };
+    let body = ball();
     for engine in Engine::ALL {
         let moved_m = |index| {
             let trial = Task::Walk.trial().perturbed(index);
@@ -150,12 +154,7 @@ fn a_ball_gains_nothing_by_being_pushed() {
 /// The course's measure has no halves, so that a push would count in full.
 #[test]
 fn nobody_is_pushed_in_the_course() {
-    let ball =
-        Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
-    let body = Creature {
-        morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
-        controller: Controller { period_s: 0.1, motors: vec![None] },
-    };
+    let body = ball();
     for engine in Engine::ALL {
         let score = |trials| {
             let problem =

@@ -214,9 +214,7 @@ impl Config {
             ))),
         }
     }
-}
 
-impl Config {
     /// The names of the settings that mean nothing to the algorithm.
     fn idle(&self) -> &'static [&'static str] {
         match self.algorithm {

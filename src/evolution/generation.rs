@@ -169,8 +169,7 @@ pub fn select<P: Problem>(
     };
     let Moment { source, generation } = moment;
     let stream = |index| source.stream(generation, index as u32, Purpose::Selection);
-    let selection = strategy.parenthood();
-    selection.prepare(&fitness).couples(selection, offspring, stream)
+    strategy.parenthood().prepare(&fitness).couples(offspring, stream)
 }
 
 /// Phase: recombines and mutates.

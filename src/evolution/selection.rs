@@ -75,6 +75,8 @@ choice::as_text!(Selection);
 pub enum Selector {
     /// Picks in proportion to weights; see [`Wheel`].
     Wheel(Wheel),
+    /// The same, with all picks from one spin: see [`Wheel::spin_once`].
+    WheelOnce(Wheel),
     /// Holds tournaments of a size.
     Tournament {
         /// The scores competed with, by index.
@@ -94,9 +96,8 @@ impl Selection {
     pub fn prepare(self, fitness: &[Fitness]) -> Selector {
         assert!(!fitness.is_empty(), "selection needs a population");
         match self {
-            Selection::Roulette | Selection::Sus => {
-                Selector::Wheel(Wheel::new(&roulette_weights(fitness)))
-            }
+            Selection::Roulette => Selector::Wheel(Wheel::new(&roulette_weights(fitness))),
+            Selection::Sus => Selector::WheelOnce(Wheel::new(&roulette_weights(fitness))),
             Selection::Tournament { size } => {
                 Selector::Tournament { fitness: fitness.to_vec(), size: size.max(1) }
             }
@@ -111,14 +112,9 @@ impl Selection {
 impl Selector {
     /// The indices of the parents of so many couples, each couple from its own stream, or all of them from that of the
     /// first one where they are drawn at once.
-    pub fn couples(
-        &self,
-        selection: Selection,
-        couples: usize,
-        stream: impl Fn(usize) -> Stream,
-    ) -> Vec<[usize; 2]> {
+    pub fn couples(&self, couples: usize, stream: impl Fn(usize) -> Stream) -> Vec<[usize; 2]> {
         match self {
-            Selector::Wheel(wheel) if selection == Selection::Sus => {
+            Selector::WheelOnce(wheel) => {
                 let parents = wheel.spin_once(2 * couples, &mut stream(0));
                 parents.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
             }
@@ -135,7 +131,7 @@ impl Selector {
     /// The index of one parent.
     pub fn pick(&self, rng: &mut Stream) -> usize {
         match self {
-            Selector::Wheel(wheel) => wheel.spin(rng),
+            Selector::Wheel(wheel) | Selector::WheelOnce(wheel) => wheel.spin(rng),
             Selector::Tournament { fitness, size } => {
                 let mut draw = || rng.random_range(0..fitness.len());
                 let first = draw();
@@ -287,7 +283,7 @@ mod tests {
         let expected = [0.0, 2.0 / 9.0, 6.0 / 9.0, 1.0 / 9.0].map(|share| share * 14.0);
         for seed in 0..50 {
             let stream = |_| Source { seed, island: 0 }.stream(0, 0, Purpose::Selection);
-            let couples = Selection::Sus.prepare(&fitness).couples(Selection::Sus, 7, stream);
+            let couples = Selection::Sus.prepare(&fitness).couples(7, stream);
             for (index, expected) in expected.into_iter().enumerate() {
                 let count = couples.iter().flatten().filter(|&&it| it == index).count() as f64;
                 assert!((count - expected).abs() < 1.0, "{count} instead of {expected}");

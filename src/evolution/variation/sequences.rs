@@ -23,8 +23,8 @@ pub fn one_point_crossover<G: Clone>(
     genes_max: usize,
     rng: &mut Stream,
 ) -> Vec<G> {
-    if a.is_empty() || b.is_empty() {
-        return a.iter().chain(b).take(genes_max).cloned().collect();
+    if let Some(child) = only_parent(a, b, genes_max) {
+        return child;
     }
     let (head, tail) = match layout {
         Layout::Fixed => {
@@ -46,8 +46,8 @@ pub fn two_point_crossover<G: Clone>(
     genes_max: usize,
     rng: &mut Stream,
 ) -> Vec<G> {
-    if a.is_empty() || b.is_empty() {
-        return a.iter().chain(b).take(genes_max).cloned().collect();
+    if let Some(child) = only_parent(a, b, genes_max) {
+        return child;
     }
     let mut part = |from: usize, length: usize| {
         let (one, other) = (rng.random_range(from..=length), rng.random_range(from..=length));
@@ -60,6 +60,12 @@ pub fn two_point_crossover<G: Clone>(
     };
     let genes = a[..head].iter().chain(&b[begin..end]).chain(&a[rest..]);
     genes.take(genes_max).cloned().collect()
+}
+
+/// The child of two parents of whom one has no genes: the other one.
+fn only_parent<G: Clone>(a: &[G], b: &[G], genes_max: usize) -> Option<Vec<G>> {
+    let is_it = a.is_empty() || b.is_empty();
+    is_it.then(|| a.iter().chain(b).take(genes_max).cloned().collect())
 }
 
 /// Gene by gene, `with` makes the child's of the parents' in the same place; what only `a` has stays, so that the child

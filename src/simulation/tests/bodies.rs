@@ -66,6 +66,26 @@ fn cuboid(half_extents_m: [f64; 3], mass_kg: f64, joint: Option<Joint>) -> Link 
     }
 }
 
+/// Half the size of a [`sled`].
+pub const SLED_M: [f64; 3] = [0.25, 0.2, 0.1];
+
+/// A flat box to slide on.
+pub fn sled() -> Body {
+    Body::of(SLED_M, 2.0)
+}
+
+/// A sled with a rider, who is free to turn, so that it is jointed.
+pub fn ridden() -> Creature {
+    let saddle = Hinge {
+        parent: 0,
+        parent_from_hinge: Isometry3::translation(0.0, 0.0, 0.1),
+        centre_m: Vector3::z() * 0.1,
+        axis: Vector3::z(),
+        torque_nm_max: 0.0,
+    };
+    sled().with([0.1; 3], 1.0, saddle).build()
+}
+
 /// A trunk with two limbs, one of which has a limb of its own; hinges about all three axes.
 pub fn limbs(torque_nm_max: f64) -> Creature {
     let hinge = |parent, at_m: [f64; 3], centre_m: [f64; 3], axis| Hinge {

@@ -4,17 +4,13 @@ use super::super::assembly::Assembly;
 use super::super::perturbation::Perturbation;
 use super::super::trial::{GRIP, Start, Trial};
 use super::super::{Engine, Measurement, simulate};
-use super::bodies::{Body, Hinge, limbs};
+use super::bodies::{Body, Hinge, limbs, sled};
 use super::lab::Lab;
 use super::{GRAVITY_M_S2, SPACE, TRIAL};
 use crate::creature::Creature;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 const PUSH: Vector3<f64> = Vector3::new(0.2, -0.15, 0.0);
-
-fn sled() -> Creature {
-    Body::of([0.25, 0.2, 0.1], 2.0).build()
-}
 
 fn perturbed(trial: Trial, perturbation: Perturbation) -> Trial {
     Trial { perturbation, ..trial }
@@ -25,7 +21,7 @@ fn what_slides_gets_as_far_as_the_perturbed_friction_allows() {
     for engine in Engine::ALL {
         for friction in [0.75, 1.0, 1.25] {
             let trial = perturbed(TRIAL, Perturbation { friction, ..Perturbation::NONE });
-            let mut lab = Lab::new(engine, &sled(), trial);
+            let mut lab = Lab::new(engine, &sled().build(), trial);
             lab.run(0.5);
             let start_m = lab.centre_of_mass();
             lab.world.kick(Vector3::x() * 2.0, Vector3::zeros());
@@ -41,7 +37,7 @@ fn what_slides_gets_as_far_as_the_perturbed_friction_allows() {
 #[test]
 fn a_push_gives_a_body_that_moves_anyhow_its_mass_times_the_velocity_and_turns_nothing() {
     for engine in Engine::ALL {
-        for body in [sled(), limbs(3.0)] {
+        for body in [sled().build(), limbs(3.0)] {
             let mass_kg: f64 = body.morphology.links.iter().map(|link| link.mass_kg).sum();
             let mut lab = Lab::new(engine, &body, SPACE);
             lab.world.kick(Vector3::new(0.1, 0.2, 0.3), Vector3::new(0.5, 0.0, 0.2));
@@ -117,7 +113,7 @@ fn a_body_falls_as_fast_at_all_steps() {
     for engine in Engine::ALL {
         for steps_per_s in [200, 240, 300] {
             let trial = Trial { steps_per_s, start: Start::RootAt(9.0), ..TRIAL };
-            let mut lab = Lab::new(engine, &sled(), trial);
+            let mut lab = Lab::new(engine, &sled().build(), trial);
             lab.run(1.0);
             let fallen_m = 9.0 - lab.centre_of_mass().z;
             let error = fallen_m / (GRAVITY_M_S2 / 2.0) - 1.0;
@@ -128,7 +124,7 @@ fn a_body_falls_as_fast_at_all_steps() {
 
 fn try_out(engine: Engine, perturbation: Perturbation) -> Measurement {
     let trial = Trial { settle_s: 0.5, scored_s: 4.0, keeps_ledger: true, ..TRIAL };
-    let measured = simulate(&sled(), &perturbed(trial, perturbation), engine);
+    let measured = simulate(&sled().build(), &perturbed(trial, perturbation), engine);
     measured.unwrap_or_else(|outcome| panic!("{engine}: {outcome}"))
 }
 

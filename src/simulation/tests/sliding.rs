@@ -2,7 +2,7 @@
 
 use super::super::Engine;
 use super::super::trial::GRIP;
-use super::bodies::{Body, Hinge};
+use super::bodies::{Hinge, SLED_M, ridden, sled};
 use super::lab::Lab;
 use super::{GRAVITY_M_S2, TRIAL};
 use crate::creature::Creature;
@@ -10,23 +10,6 @@ use nalgebra::{Isometry3, Vector3};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 const SPEED_M_S: f64 = 3.0;
-const SLED_M: [f64; 3] = [0.25, 0.2, 0.1];
-
-fn sled() -> Body {
-    Body::of(SLED_M, 2.0)
-}
-
-/// A sled with a rider, who is free to turn.
-fn ridden() -> Creature {
-    let saddle = Hinge {
-        parent: 0,
-        parent_from_hinge: Isometry3::translation(0.0, 0.0, 0.1),
-        centre_m: Vector3::z() * 0.1,
-        axis: Vector3::z(),
-        torque_nm_max: 0.0,
-    };
-    sled().with([0.1; 3], 1.0, saddle).build()
-}
 
 /// Three sleds in a row, free to nod.
 fn train() -> Creature {
