@@ -173,7 +173,7 @@ fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     // The next number after the one that it gets.
     individual.fitness = Fitness::new(individual.fitness.get().next_up());
     let champions: Vec<_> = (0..=31)
-        .map(|generation| Champion { generation, individual: individual.clone(), confirmed: None })
+        .map(|generation| Champion { generation, individual: individual.clone(), validated: None })
         .collect();
     rewrite(&path, &champions);
 

@@ -5,7 +5,7 @@ use crate::program;
 use islands::app::config::Config;
 use islands::archipelago::{Archipelago, Step, lockstep};
 use islands::creature::Gene;
-use islands::evolution::{Evaluation, Problem};
+use islands::evolution::{Evaluation, Hurdles, Problem};
 use islands::problems::Locomotion;
 use islands::rng::Stream;
 use islands::store::{Logbook, RunDir};
@@ -145,17 +145,21 @@ impl Problem for Timed {
     }
 
     fn evaluate(&self, genome: &[Gene]) -> Evaluation {
+        self.estimate(genome, &Hurdles::NONE)
+    }
+
+    fn estimate(&self, genome: &[Gene], hurdles: &Hurdles) -> Evaluation {
         let began_s = processor_s();
-        let evaluation = self.problem.evaluate(genome);
+        let evaluation = self.problem.estimate(genome, hurdles);
         let seconds = processor_s() - began_s;
         let job = Job { estimate: self.problem.cost(genome), seconds };
         self.batch.lock().expect("there is one thread").jobs.push(job);
         evaluation
     }
 
-    fn evaluate_batch(&self, genomes: &[&[Gene]]) -> Vec<Evaluation> {
+    fn estimate_batch(&self, genomes: &[&[Gene]], hurdles: &Hurdles) -> Vec<Evaluation> {
         let began_s = processor_s();
-        let evaluations = genomes.iter().map(|genome| self.evaluate(genome)).collect();
+        let evaluations = genomes.iter().map(|genome| self.estimate(genome, hurdles)).collect();
         let whole_s = processor_s() - began_s;
         self.batch.lock().expect("there is one thread").whole_s += whole_s;
         evaluations

@@ -4,7 +4,7 @@ use super::terrains::TerrainArgs;
 use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Scales};
-use crate::problems::{RobustBy, Task};
+use crate::problems::{Locomotion, RobustBy, Task};
 use crate::simulation::Engine;
 use clap::Args;
 use std::path::PathBuf;
@@ -46,17 +46,19 @@ pub struct TrialArgs {
     pub task: Task,
     #[command(flatten)]
     pub read: ReadArgs,
-    /// What moves the body: rapier (the engine of record) or featherstone (several times as
-    /// fast)
+    /// Physics engine: featherstone (our own, ten times as fast) or rapier
     #[arg(long, default_value_t)]
     pub engine: Engine,
-    /// Score it by this many trials with other friction, motor strength, first direction, a push and other steps;
-    /// 0 for one trial as it is
-    #[arg(long, default_value_t = 0, value_name = "K")]
+    /// Perturbed trials: friction, motor strength, first direction, a push and the step differ; 0 for one trial as it is
+    #[arg(long, default_value_t = Locomotion::DEFAULT.robustness.trials, value_name = "K")]
     pub robustness: u32,
-    /// What the scores of these trials come to: worst or mean
+    /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst
     #[arg(long, default_value_t, value_name = "HOW")]
     pub robust_by: RobustBy,
+    /// Score it in the other engine, too, and count the lower score
+    #[arg(long, default_value_t = Locomotion::DEFAULT.judged, num_args = 0..=1, require_equals = true,
+        default_missing_value = "true", action = clap::ArgAction::Set, value_name = "BOOL")]
+    pub judged: bool,
     /// No body gets more links than this, but for profile coursework
     #[arg(long, default_value_t = 32, value_name = "L")]
     pub max_links: usize,

@@ -44,12 +44,13 @@ pub struct Wish {
 }
 
 /// Settings that mean something to creatures alone.
-const OF_CREATURES: [&str; 13] = [
+const OF_CREATURES: [&str; 14] = [
     "task",
     "profile",
     "engine",
     "robustness",
     "robust-by",
+    "judged",
     "max-links",
     "scales",
     "terrain",

@@ -219,6 +219,10 @@ pub struct EvaluateArgs {
     pub problem: ProblemArgs,
     #[command(flatten)]
     pub trial: TrialArgs,
+    /// Try every creature in so many perturbations that no run selects on, in both engines, and print their mean,
+    /// spread and worst
+    #[arg(long, value_name = "N")]
+    pub trials: Option<u32>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "K")]
     pub threads: Option<usize>,
@@ -264,16 +268,19 @@ pub struct ReplayArgs {
     pub profile: Option<Profile>,
     #[command(flatten)]
     pub changes: ChangeArgs,
-    /// What moves the bodies: rapier (the engine of record) or featherstone (several times as
-    /// fast) [default: rapier, or as in the run]
+    /// Physics engine: featherstone (our own, ten times as fast) or rapier [default: featherstone, or as in the run]
     #[arg(long)]
     pub engine: Option<Engine>,
-    /// Score by so many perturbed trials; the film is of one as it is [default: 0, or as in the run]
+    /// Perturbed trials; the film is of the one whose score is nearest to what all come to [default: 8, or as in the
+    /// run]
     #[arg(long, value_name = "K")]
     pub robustness: Option<u32>,
-    /// What the scores of these trials come to: worst or mean [default: worst, or as in the run]
+    /// What the scores of these trials come to: mean, median, quartile or worst [default: mean, or as in the run]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
+    /// Score in the other engine, too, and count the lower score [default: true, or as in the run]
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
+    pub judged: Option<bool>,
     /// No body gets more links than this, but for profile coursework [default: 32, or as in the run]
     #[arg(long, value_name = "L")]
     pub max_links: Option<usize>,

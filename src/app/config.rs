@@ -74,6 +74,8 @@ pub struct Config {
     pub robustness: u32,
     /// What their scores come to.
     pub robust_by: RobustBy,
+    /// Whether elites, emigrants and champions are judged by the other engine, too.
+    pub judged: bool,
     /// Genes of a random genome.
     pub genes: usize,
     /// No genome gets longer than this, in genes.
@@ -169,9 +171,10 @@ impl Default for Config {
             block: 5,
             task: Task::Walk,
             profile: Profile::Native,
-            engine: Engine::Rapier,
-            robustness: 0,
-            robust_by: RobustBy::Worst,
+            engine: Locomotion::DEFAULT.engine,
+            robustness: Locomotion::DEFAULT.robustness.trials,
+            robust_by: Locomotion::DEFAULT.robustness.by,
+            judged: Locomotion::DEFAULT.judged,
             genes: 4,
             max_genes: variation.genes_max,
             max_links: 32,
@@ -288,6 +291,7 @@ impl Config {
             engine: self.engine,
             terrain: self.terrain.as_ref().and_then(|it| it.terrain),
             robustness: Robustness { trials: self.robustness, by: self.robust_by },
+            judged: self.judged,
         }
     }
 }

@@ -9,12 +9,14 @@ use super::subject::Subject;
 use super::{Failure, genomes, terrains};
 use crate::evolution::sharing::dearest_first;
 use crate::evolution::{Evaluation, Problem};
-use crate::problems::Locomotion;
+use crate::problems::{Locomotion, Validation};
 use serde::Serialize;
 use std::path::PathBuf;
 
 /// The most that everything is evaluated.
 const REPEAT_MAX: usize = 1_000_000;
+/// The most fresh trials.
+const TRIALS_MAX: u32 = 100_000;
 
 #[derive(Serialize)]
 struct Scores {
@@ -38,6 +40,9 @@ struct Score {
     genome: PathBuf,
     fitness: f64,
     outcome: String,
+    /// What it gets on trials that nobody is selected on, if that was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    validation: Vec<Validation>,
 }
 
 /// Scores the genomes and bodies in the files that are named.
@@ -45,6 +50,9 @@ struct Score {
 /// # Errors
 /// If one cannot be read.
 pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
+    if !(1..=TRIALS_MAX).contains(&args.trials.unwrap_or(1)) {
+        return Err(Failure::usage(format!("--trials must be from 1 to {TRIALS_MAX}")));
+    }
     let threads_fit = (1..=THREADS_MAX).contains(&args.threads.unwrap_or(1));
     if !threads_fit || !(1..=REPEAT_MAX).contains(&args.repeat) {
         return Err(Failure::usage(format!(
@@ -58,7 +66,11 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
     let problem = config.locomotion();
     let read = |path: &PathBuf| Specimen::read(path, &args.trial.read.changes);
     let specimens: Vec<_> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-    judge(args, &config, &problem, &specimens, |batch| try_out(&problem, batch))
+    let fresh = |specimen: &Specimen, trials| match specimen {
+        Specimen::Genome(genome) => problem.fresh(genome, trials),
+        Specimen::Body(body) => problem.validate_in_each(&body.creature, trials),
+    };
+    judge(args, &config, &problem, &specimens, |batch| try_out(&problem, batch), fresh)
 }
 
 /// Scores creatures, the dearest first.
@@ -90,10 +102,14 @@ impl Visitor for Examiner<'_> {
             })
         };
         let genomes: Vec<Vec<_>> = self.args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-        judge(self.args, self.config, &problem, &genomes, |batch| {
+        if self.args.trials.is_some() {
+            return Err(Failure::usage(format!("--trials means nothing to {}", self.config.problem)));
+        }
+        let evaluate = |batch: &[&Vec<_>]| {
             let batch: Vec<_> = batch.iter().map(|genome| genome.as_slice()).collect();
             problem.evaluate_batch(&batch)
-        })
+        };
+        judge(self.args, self.config, &problem, &genomes, evaluate, |_, _| Vec::new())
     }
 }
 
@@ -102,7 +118,8 @@ fn judge<P: Subject, T: Sync>(
     config: &Config,
     problem: &P,
     specimens: &[T],
-    evaluate: impl Fn(&[&T]) -> Vec<Evaluation> + Sync,
+    evaluate: impl Fn(&[&T]) -> Vec<Evaluation> + Sync + Send,
+    fresh: impl Fn(&T, u32) -> Vec<Validation> + Sync + Send,
 ) -> Result<(), Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(args.threads.unwrap_or(0))
@@ -113,6 +130,11 @@ fn judge<P: Subject, T: Sync>(
     let watch = Stopwatch::start();
     let evaluations = pool.install(|| evaluate(&batch));
     let wall_seconds = watch.seconds();
+    let trials = args.trials.unwrap_or(0);
+    let validations: Vec<Vec<Validation>> = match trials {
+        0 => vec![Vec::new(); specimens.len()],
+        _ => pool.install(|| specimens.iter().map(|specimen| fresh(specimen, trials)).collect()),
+    };
 
     let a_second = |count: f64| count / wall_seconds.max(1e-9);
     let is_walker = config.problem == Kind::Creatures;
@@ -122,16 +144,19 @@ fn judge<P: Subject, T: Sync>(
         problem: config.problem,
         task: is_walker.then(|| args.trial.task.to_string()),
         profile: is_walker.then(|| args.trial.read.profile.to_string()),
-        genomes: args.genomes.iter().zip(&evaluations).map(score).collect(),
+        genomes: args.genomes.iter().zip(&evaluations).zip(&validations).map(score).collect(),
         evaluations: evaluations.len(),
         threads: pool.current_num_threads(),
         wall_seconds,
         evaluations_per_second: a_second(evaluations.len() as f64),
         steps_per_second: is_walker.then(|| a_second(steps)),
     };
-    for (path, evaluation) in args.genomes.iter().zip(&evaluations) {
+    for ((path, evaluation), validation) in args.genomes.iter().zip(&evaluations).zip(&validations) {
         let Evaluation { fitness, outcome } = *evaluation;
         print(&format!("{:>12}  {outcome:<10}  {}", problem.show(fitness), path.display()));
+        for one in validation {
+            print(&format!("{:>14}{}", "", one.in_words(problem.unit())));
+        }
     }
     if args.json {
         print(
@@ -146,7 +171,7 @@ fn judge<P: Subject, T: Sync>(
 impl EvaluateArgs {
     /// The configuration of a run whose genomes these may be.
     fn config(&self) -> Result<Config, Failure> {
-        let TrialArgs { task, read, engine, robustness, robust_by, max_links, terrain } =
+        let TrialArgs { task, read, engine, robustness, robust_by, judged, max_links, terrain } =
             &self.trial;
         let usual = Config::default_for(self.problem.wish());
         let mut config = Config {
@@ -156,6 +181,7 @@ impl EvaluateArgs {
             engine: *engine,
             robustness: *robustness,
             robust_by: *robust_by,
+            judged: *judged,
             max_links: *max_links,
             ..self.problem.over(usual)
         };
@@ -165,10 +191,11 @@ impl EvaluateArgs {
     }
 }
 
-fn score((path, evaluation): (&PathBuf, &Evaluation)) -> Score {
+fn score(((path, evaluation), validation): ((&PathBuf, &Evaluation), &Vec<Validation>)) -> Score {
     Score {
         genome: path.clone(),
         fitness: evaluation.fitness.saturated(),
         outcome: evaluation.outcome.to_string(),
+        validation: validation.clone(),
     }
 }

@@ -203,12 +203,21 @@ impl TrialArgs {
     /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be
     /// used.
     pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, robustness: trials, robust_by, max_links, terrain } = self;
+        let Self { task, read, engine, robustness: trials, robust_by, judged, max_links, terrain } =
+            self;
         let robustness = robustness(*trials, *robust_by)?;
         let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
         let Reading { profile, scales } = reading;
-        let (task, engine, terrain) = (*task, *engine, terrain.read()?);
-        let usual = Locomotion::default();
-        Ok(Locomotion { profile, scales, task, engine, links_max, robustness, terrain, ..usual })
+        Ok(Locomotion {
+            profile,
+            scales,
+            task: *task,
+            engine: *engine,
+            links_max,
+            robustness,
+            judged: *judged,
+            terrain: terrain.read()?,
+            ..Locomotion::DEFAULT
+        })
     }
 }

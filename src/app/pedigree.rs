@@ -84,11 +84,11 @@ pub fn selection<T: Clone>(line: &[T], most: usize) -> Vec<T> {
     (0..=last).map(|place| line[place * (line.len() - 1) / last].clone()).collect()
 }
 
-/// What a champion is worth, and what it was confirmed to be, as a label has room for.
+/// What a champion is worth, and what of it holds on fresh trials, as a label has room for.
 pub fn standing<P: Subject>(problem: &P, champion: &Champion<P::Gene>) -> String {
     let score = problem.short(champion.individual.fitness);
-    match champion.confirmed {
-        Some(confirmed) => format!("{score} ({} in rapier)", problem.short(confirmed)),
+    match champion.validated {
+        Some(validated) => format!("{score} ({} fresh)", problem.short(validated)),
         None => score,
     }
 }

@@ -9,6 +9,7 @@ use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Gene, Individual};
 use crate::formats::metrics;
+use crate::problems::Validation;
 use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint, file};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -16,18 +17,24 @@ use std::path::PathBuf;
 /// No summary is longer, in bytes: one has some hundred.
 pub const SUMMARY_BYTES_MAX: usize = 1 << 20;
 
+/// So many fresh trials in each engine say what a run's champion is worth.
+pub const VALIDATION_TRIALS: u32 = 32;
+
 /// The result of a run, as `summary.json` and `--json` say it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// The digest of all final populations: equal for equal seeds and settings.
     pub digest: String,
-    /// The fitness of the champion that is kept: the best ever, or among those whose fitness was confirmed the one
-    /// that is worth most then. The most negative number there is if nothing could be scored.
+    /// The fitness of the champion that is kept, the best ever: the score that it was selected by. The most negative
+    /// number there is if nothing could be scored.
     pub best_fitness: f64,
-    /// What rapier gives to the same champion, where another engine has evolved it.
+    /// What the run claims of the same champion: the lower of the means of `validation`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub best_confirmed: Option<f64>,
-    /// The same as people read it.
+    pub validated: Option<f64>,
+    /// What it gets in each engine on trials that it was not selected on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub validation: Vec<Validation>,
+    /// The fitness as people read it.
     #[serde(skip)]
     pub best: String,
     /// The file of its genome.
@@ -81,12 +88,12 @@ pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Optio
     let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
     let islands = final_islands::<P::Gene>(dir, config).ok()?;
-    let champions = champions(dir, config).ok()?;
+    let champions = champions::<P::Gene>(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
     let (_, best) = best(&champions).filter(|_| is_sound)?;
     Some(Summary {
-        best: show(problem, best),
+        best: problem.show(best.individual.fitness),
         // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
@@ -125,12 +132,14 @@ pub fn summarise<P: Subject>(
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
     let (best_island, best) = best;
     let is_walker = config.problem == Kind::Creatures;
+    let validation = problem.fresh(&best.individual.genome, VALIDATION_TRIALS);
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     Summary {
         digest: Digest::of(islands).to_string(),
         best_fitness: best.individual.fitness.saturated(),
-        best_confirmed: best.confirmed.map(Fitness::saturated),
-        best: show(problem, best),
+        validated: lowest_mean(&validation),
+        validation,
+        best: problem.show(best.individual.fitness),
         best_genome: dir.champion_genome(),
         best_island,
         unit: problem.unit().to_owned(),
@@ -178,14 +187,19 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, S
 pub fn best<G: Gene>(champions: &[Vec<Champion<G>>]) -> Option<(u32, &Champion<G>)> {
     let islands = (0..).zip(champions);
     let all = islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)));
-    all.reduce(|best, next| if next.1.standing() > best.1.standing() { next } else { best })
+    all.reduce(|best, next| if next.1.individual.fitness > best.1.individual.fitness { next } else { best })
 }
 
-/// A champion's fitness as people read it, and what it was confirmed to be.
+/// The lower of the engines' means, if there are any.
+pub fn lowest_mean(validation: &[Validation]) -> Option<f64> {
+    validation.iter().map(|one| one.mean).reduce(f64::min)
+}
+
+/// A champion's fitness as people read it, and what of it holds on trials that it was not selected on.
 pub fn show<P: Subject>(problem: &P, champion: &Champion<P::Gene>) -> String {
     let fitness = problem.show(champion.individual.fitness);
-    match champion.confirmed {
-        Some(confirmed) => format!("{fitness} ({} in rapier)", problem.show(confirmed)),
+    match champion.validated {
+        Some(validated) => format!("{fitness} ({} on fresh trials)", problem.show(validated)),
         None => fitness,
     }
 }
@@ -234,7 +248,7 @@ impl Podium {
     /// If they cannot be read.
     pub fn of<G: Gene>(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
         let champions = champions::<G>(dir, config)?;
-        let best = best(&champions).map_or(Fitness::WORST, |(_, best)| best.standing());
+        let best = best(&champions).map_or(Fitness::WORST, |(_, best)| best.individual.fitness);
         Ok(Self { best })
     }
 
@@ -248,10 +262,11 @@ impl Podium {
         problem: &P,
         champion: &Champion<P::Gene>,
     ) -> Result<(), Failure> {
-        if champion.standing() <= self.best {
+        let fitness = champion.individual.fitness;
+        if fitness <= self.best {
             return Ok(());
         }
-        self.best = champion.standing();
+        self.best = fitness;
         write_champion(dir, problem, &champion.individual)
     }
 }

@@ -37,17 +37,19 @@ pub struct SettingArgs {
     /// How genes are read: native, lecture or coursework [default: native]
     #[arg(long)]
     pub profile: Option<Profile>,
-    /// What moves the bodies: rapier (the engine of record) or featherstone (several times as
-    /// fast) [default: rapier]
+    /// Physics engine: featherstone (our own, ten times as fast) or rapier [default: featherstone]
     #[arg(long)]
     pub engine: Option<Engine>,
-    /// Score a genome by this many trials with other friction, motor strength, first direction, a push and other steps,
-    /// so that it walks elsewhere, too; 0 for one trial as it is [default: 0]
+    /// Perturbed trials of each genome: friction, motor strength, first direction, a push and the step differ, so that
+    /// luck and quirks of one world count little; 0 for one trial as it is [default: 8]
     #[arg(long, value_name = "K")]
     pub robustness: Option<u32>,
-    /// What the scores of these trials come to: worst or mean [default: worst]
+    /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst [default: mean]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
+    /// Score elites, emigrants and champions in the other engine, too, and count the lower score [default: true]
+    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
+    pub judged: Option<bool>,
     /// Genes of a random genome [default: 4]
     #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
     pub genes: Option<usize>,
@@ -152,6 +154,7 @@ impl SettingArgs {
             engine: self.engine.unwrap_or(config.engine),
             robustness: self.robustness.unwrap_or(config.robustness),
             robust_by: self.robust_by.unwrap_or(config.robust_by),
+            judged: self.judged.unwrap_or(config.judged),
             genes: self.genes.unwrap_or(config.genes),
             max_genes: self.max_genes.unwrap_or(config.max_genes),
             max_links: self.max_links.unwrap_or(config.max_links),
@@ -200,9 +203,9 @@ mod tests {
             --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
             --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
             --topology torus --emigrants random --replacement similar --exchange async \
-            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine featherstone --algorithm random --survival crowding \
+            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine rapier --algorithm random --survival crowding \
             --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
-            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by mean";
+            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by worst --judged=false";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

@@ -6,7 +6,9 @@ use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
 use crate::evolution::survival::map_elites;
-use crate::evolution::{Fitness, Gene, Individual, Memory, Problem, Statistics, Survival};
+use crate::evolution::{
+    Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics, Survival,
+};
 use crate::rng::Purpose;
 use serde::{Deserialize, Serialize};
 
@@ -51,8 +53,8 @@ pub struct Champion<G> {
     pub generation: u32,
     /// The champion.
     pub individual: Individual<G>,
-    /// Its fitness in the eyes of [`Problem::confirm`], if it has a say.
-    pub confirmed: Option<Fitness>,
+    /// What it is worth on trials that it was not selected on: see [`Problem::validate`].
+    pub validated: Option<Fitness>,
 }
 
 impl<G: Gene> Champion<G> {
@@ -61,13 +63,8 @@ impl<G: Gene> Champion<G> {
         individual: &Individual<G>,
         generation: u32,
     ) -> Self {
-        let confirmed = problem.confirm(&individual.genome).map(|evaluation| evaluation.fitness);
-        Self { generation, individual: individual.clone(), confirmed }
-    }
-
-    /// What it is worth among champions: its confirmed fitness where there is one.
-    pub fn standing(&self) -> Fitness {
-        self.confirmed.unwrap_or(self.individual.fitness)
+        let validated = problem.validate(&individual.genome);
+        Self { generation, individual: individual.clone(), validated }
     }
 }
 
@@ -92,7 +89,8 @@ pub struct Step<G> {
 pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
-    let Brood { population, effort, panicked } = generation::evaluate(problem, offspring, &[]);
+    let Brood { population, effort, panicked } = 
+        generation::evaluate(problem, offspring, &[], &Hurdles::NONE);
     let births = Births::of(0, &Memory::default(), &population);
     let memory = Memory::first(&population, &archipelago.strategy);
     let population = match archipelago.strategy.survival {
@@ -131,8 +129,9 @@ pub fn step<P: Problem>(
 
     let population = take_in(problem, population, immigrants, archipelago, moment);
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
+    let hurdles = Hurdles::of(&population, strategy, migration.migrants);
     let Brood { population: brood, effort, panicked } =
-        generation::evaluate(problem, offspring, &population);
+        generation::evaluate(problem, offspring, &population, &hurdles);
     let births = Births::of(generation, &memory, &brood);
     let mut anew = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
     let memory = memory.after::<P>(&population, &brood, strategy, &mut anew);

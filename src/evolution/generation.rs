@@ -2,6 +2,7 @@
 //! and [`evaluate`]. Who survives is [`super::survival`]'s.
 
 use super::fitness::{Evaluation, Fitness, Outcome};
+use super::hurdles::Hurdles;
 use super::individual::{Id, Individual};
 use super::memory::Memory;
 use super::population::Population;
@@ -226,12 +227,13 @@ pub struct Brood<G> {
     pub panicked: Vec<Vec<G>>,
 }
 
-/// Phase: scores the offspring. A genome that stands in `known` or twice in the brood is evaluated once
-/// at most: evaluation is a pure function of the genome.
+/// Phase: scores the offspring, as far as they get over the hurdles. A genome that stands in `known` or twice in the
+/// brood is evaluated once at most: evaluation is a pure function of the genome.
 pub fn evaluate<P: Problem>(
     problem: &P,
     offspring: Vec<Offspring<P::Gene>>,
     known: &[Individual<P::Gene>],
+    hurdles: &Hurdles,
 ) -> Brood<P::Gene> {
     fn key<G: super::Gene>(genome: &[G]) -> &[u8] {
         bytemuck::cast_slice(genome)
@@ -245,7 +247,7 @@ pub fn evaluate<P: Problem>(
         }
     }
     let genomes: Vec<&[P::Gene]> = fresh.into_values().collect();
-    let evaluations = problem.evaluate_batch(&genomes);
+    let evaluations = problem.estimate_batch(&genomes, hurdles);
     let effort = effort(&evaluations, offspring.len());
     let panicked = genomes.iter().zip(&evaluations).filter(|(_, e)| e.outcome == Outcome::Panicked);
     let panicked = panicked.map(|(genome, _)| genome.to_vec()).collect();

@@ -3,8 +3,8 @@
 //! Read in this order: a [`Problem`] says what a genome is and how good it is ([`Fitness`]); an [`Individual`] is an
 //! evaluated genome with a parentage, a [`Population`] an ordered list of them; [`Selection`] picks parents,
 //! [`variation`] recombines and mutates, [`survival`] decides who stays; [`generation`] has these phases,
-//! [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`sharing`] deals
-//! evaluations out to threads.
+//! [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`hurdles`] say how far an
+//! evaluation has to go, and [`sharing`] deals evaluations out to threads.
 //!
 //! Architecture invariant: pure. Nothing here knows a creature, a clock, a file or a process, and every
 //! stochastic function takes the stream it draws from.
@@ -12,6 +12,7 @@
 pub mod cma;
 pub mod fitness;
 pub mod generation;
+pub mod hurdles;
 pub mod individual;
 pub mod memory;
 pub mod population;
@@ -26,6 +27,7 @@ pub mod variation;
 mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
+pub use hurdles::Hurdles;
 pub use individual::{Id, Individual};
 pub use memory::Memory;
 pub use population::{Population, Spread, Statistics};

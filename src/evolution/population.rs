@@ -111,7 +111,8 @@ fn representatives<G>(population: &[Individual<G>]) -> impl Iterator<Item = &Ind
     (0..count).map(move |i| &population[i * population.len() / count])
 }
 
-fn mean_of_pairs<T>(all: &[T], distance: impl Fn(&T, &T) -> f64) -> f64 {
+/// The mean of a function over all pairs of different items; 0 without any.
+pub fn mean_of_pairs<T>(all: &[T], distance: impl Fn(&T, &T) -> f64) -> f64 {
     let mut sum = 0.0;
     let mut pairs = 0.0;
     for (i, a) in all.iter().enumerate() {

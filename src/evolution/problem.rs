@@ -1,6 +1,7 @@
 //! What is to be solved.
 
 use super::fitness::{Evaluation, Fitness};
+use super::hurdles::Hurdles;
 use super::sharing;
 use super::variation::sequences::Layout;
 use super::variation::{self, Variation};
@@ -69,9 +70,15 @@ pub trait Problem: Sync + Sized {
     /// Scores a genome.
     fn evaluate(&self, genome: &[Self::Gene]) -> Evaluation;
 
-    /// Scores a champion once more by a slower and more trusted judge than [`Problem::evaluate`], where there is
-    /// one. It decides nothing of what evolves, but which champion a run keeps.
-    fn confirm(&self, _genome: &[Self::Gene]) -> Option<Evaluation> {
+    /// Scores a genome as far as it gets over the hurdles. Who gets over all of them has the score of
+    /// [`Problem::evaluate`], others an estimate that is not above the hurdle that they failed at. By default nobody is
+    /// estimated.
+    fn estimate(&self, genome: &[Self::Gene], _hurdles: &Hurdles) -> Evaluation {
+        self.evaluate(genome)
+    }
+
+    /// What a champion is worth on trials that it was not selected on, where there are such. It decides nothing.
+    fn validate(&self, _genome: &[Self::Gene]) -> Option<Fitness> {
         None
     }
 
@@ -108,11 +115,16 @@ pub trait Problem: Sync + Sized {
         1
     }
 
-    /// Scores many genomes on the threads of the current rayon pool, the dearest first; results are in the order
-    /// given.
-    fn evaluate_batch(&self, genomes: &[&[Self::Gene]]) -> Vec<Evaluation> {
+    /// Scores many genomes, as far as they get over the hurdles, on the threads of the current rayon pool, the dearest
+    /// first; results are in the order given.
+    fn estimate_batch(&self, genomes: &[&[Self::Gene]], hurdles: &Hurdles) -> Vec<Evaluation> {
         let costs: Vec<u64> = genomes.iter().map(|genome| self.cost(genome)).collect();
-        sharing::dearest_first(&costs, |index| self.evaluate(genomes[index]))
+        sharing::dearest_first(&costs, |index| self.estimate(genomes[index], hurdles))
+    }
+
+    /// Scores many genomes wholly.
+    fn evaluate_batch(&self, genomes: &[&[Self::Gene]]) -> Vec<Evaluation> {
+        self.estimate_batch(genomes, &Hurdles::NONE)
     }
 
     /// The unit of the fitness, for labels.

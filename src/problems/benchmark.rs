@@ -8,7 +8,7 @@ use super::fixed;
 use super::functions::{Facts, Function};
 use crate::evolution::variation::sequences::Layout;
 use crate::evolution::variation::values::normal;
-use crate::evolution::{Evaluation, Fitness, Gene, Problem, sharing};
+use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem, sharing};
 use crate::rng::{Purpose, Source, Stream};
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
@@ -173,7 +173,7 @@ impl Problem for Benchmark {
         if self.rotation.is_empty() { 16 * n } else { 16 * n + n * n }
     }
 
-    fn evaluate_batch(&self, genomes: &[&[Real]]) -> Vec<Evaluation> {
+    fn estimate_batch(&self, genomes: &[&[Real]], _: &Hurdles) -> Vec<Evaluation> {
         let costs: Vec<u64> = genomes.iter().map(|genome| self.cost(genome)).collect();
         if costs.iter().sum::<u64>() < WORTH_SHARING {
             return genomes.iter().map(|genome| self.evaluate(genome)).collect();

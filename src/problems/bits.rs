@@ -3,7 +3,7 @@
 use super::fixed;
 use crate::choice;
 use crate::evolution::variation::sequences::Layout;
-use crate::evolution::{Evaluation, Fitness, Gene, Problem, Variation, variation};
+use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem, Variation, variation};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
@@ -161,7 +161,7 @@ impl Problem for Bits {
     }
 
     // A pool of threads would take far longer than the work.
-    fn evaluate_batch(&self, genomes: &[&[Bit]]) -> Vec<Evaluation> {
+    fn estimate_batch(&self, genomes: &[&[Bit]], _: &Hurdles) -> Vec<Evaluation> {
         genomes.iter().map(|genome| self.evaluate(genome)).collect()
     }
 }

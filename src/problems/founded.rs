@@ -1,7 +1,7 @@
 //! A problem whose islands do not all begin at random.
 
 use crate::evolution::variation::sequences::Layout;
-use crate::evolution::{Evaluation, Fitness, Problem, Variation};
+use crate::evolution::{Evaluation, Fitness, Hurdles, Problem, Variation};
 use crate::rng::Stream;
 
 /// A problem with genomes to begin with; all else is as in the problem itself.
@@ -74,16 +74,20 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.mutate(genome, variation, rng);
     }
 
-    fn confirm(&self, genome: &[P::Gene]) -> Option<Evaluation> {
-        self.problem.confirm(genome)
+    fn estimate(&self, genome: &[P::Gene], hurdles: &Hurdles) -> Evaluation {
+        self.problem.estimate(genome, hurdles)
+    }
+
+    fn validate(&self, genome: &[P::Gene]) -> Option<Fitness> {
+        self.problem.validate(genome)
     }
 
     fn cost(&self, genome: &[P::Gene]) -> u64 {
         self.problem.cost(genome)
     }
 
-    fn evaluate_batch(&self, genomes: &[&[P::Gene]]) -> Vec<Evaluation> {
-        self.problem.evaluate_batch(genomes)
+    fn estimate_batch(&self, genomes: &[&[P::Gene]], hurdles: &Hurdles) -> Vec<Evaluation> {
+        self.problem.estimate_batch(genomes, hurdles)
     }
 
     fn unit(&self) -> &'static str {

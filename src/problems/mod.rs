@@ -1,7 +1,7 @@
 //! What can be evolved.
 //!
-//! [`locomotion`] evolves creatures that move, [`progress`] says how far one got, and [`robustness`] what several
-//! trials come to; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones
+//! [`locomotion`] evolves creatures that move, [`progress`] says how far one got, [`robustness`] what several
+//! trials come to, and [`validation`] what one is worth on trials that it was not selected on; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones
 //! and zeros, both of a [`fixed`] length; [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
@@ -74,6 +74,7 @@ pub mod functions;
 pub mod locomotion;
 pub mod progress;
 pub mod robustness;
+pub mod validation;
 
 pub use benchmark::{Benchmark, Real};
 pub use bits::{Bit, Bits, Pattern};
@@ -81,3 +82,4 @@ pub use founded::Founded;
 pub use functions::Function;
 pub use locomotion::{Locomotion, Task};
 pub use robustness::{RobustBy, Robustness};
+pub use validation::Validation;

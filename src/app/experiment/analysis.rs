@@ -112,7 +112,7 @@ pub fn comparisons(plan: &Plan, runs: &[Vec<Run>]) -> Vec<Comparison> {
 }
 
 fn bests(runs: &[Run]) -> Vec<f64> {
-    runs.iter().map(|run| run.trial.best()).collect()
+    runs.iter().map(|run| run.trial.worth()).collect()
 }
 
 /// How the settings converge: the median of the best fitness so far against evaluations, and the quartiles around

@@ -92,11 +92,10 @@ impl Setting {
     /// What its fitness means: that of settings with another aim is another thing.
     pub fn aim(&self) -> String {
         let Config { problem, dimensions, instance, rotated, block, .. } = self.config;
-        let Config { task, robustness, robust_by, ref terrain, .. } = self.config;
+        let Config { task, ref terrain, .. } = self.config;
         let terrain = terrain.as_ref().map_or("", |terrain| &terrain.digest);
         format!(
-            "{problem} {dimensions} {instance} {rotated} {block} {task} {terrain} {robustness:?} \
-             {robust_by:?}"
+            "{problem} {dimensions} {instance} {rotated} {block} {task} {terrain}"
         )
     }
 

@@ -130,7 +130,7 @@ fn complete(
         let setting = &plan.settings[job.setting];
         let run = Run { seed: job.seed, key: plan.key(setting, job.seed), seconds, trial };
         archive::save(dir, &run)?;
-        let best = run.trial.end().best.map_or_else(|| "none".to_owned(), |best| best.to_string());
+        let best = run.trial.worth();
         let (name, seed) = (&setting.name, job.seed);
         progress.advance(&format!("{name}  seed {seed}  best {best}  {seconds:.1} s"));
         let place = plan.seeds.iter().position(|&seed| seed == job.seed);

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 /// A row a run. The last column is the only one that the definition does not fix.
 pub fn runs_csv(plan: &Plan, runs: &[Vec<Run>]) -> Vec<u8> {
-    let fixed = ["final_generation", "evaluations", "best", "confirmed"];
+    let fixed = ["final_generation", "evaluations", "best", "validated", "apart"];
     let fixed = fixed.into_iter().chain(["success", "evaluations_to_target"]);
     let varied = plan.varied.iter().map(String::as_str);
     let head = ["setting"].into_iter().chain(varied).chain(["seed"]).chain(fixed);
@@ -24,7 +24,7 @@ pub fn runs_csv(plan: &Plan, runs: &[Vec<Run>]) -> Vec<u8> {
     csv(|writer| rows.iter().try_for_each(|row| writer.write_record(row)))
 }
 
-fn cells(run: &Run, target: Option<f64>) -> [String; 9] {
+fn cells(run: &Run, target: Option<f64>) -> [String; 10] {
     let (trial, end) = (&run.trial, run.trial.end());
     let reached = target.map(|target| trial.evaluations_to(target));
     [
@@ -32,7 +32,8 @@ fn cells(run: &Run, target: Option<f64>) -> [String; 9] {
         end.generation.to_string(),
         end.evaluations.to_string(),
         end.best.map(exactly).unwrap_or_default(),
-        trial.confirmed.map(exactly).unwrap_or_default(),
+        trial.validated.map(exactly).unwrap_or_default(),
+        trial.apart.map(exactly).unwrap_or_default(),
         reached.map(|reached| reached.is_some().to_string()).unwrap_or_default(),
         reached.flatten().map(|evaluations| evaluations.to_string()).unwrap_or_default(),
         trial.digest.clone(),

@@ -29,7 +29,7 @@ fn run(curve: &[(u64, f64)]) -> Run {
     };
     let curve = curve.iter().enumerate().map(point).collect();
     let (digest, unit) = ("d1ce".to_owned(), "m".to_owned());
-    let trial = Trial { digest, unit, confirmed: None, curve };
+    let trial = Trial { digest, unit, validated: None, apart: None, curve };
     Run { seed: 1, key: String::new(), seconds: 0.25, trial }
 }
 
@@ -283,7 +283,7 @@ fn a_setting_that_never_scores_has_no_curve_and_no_numbers() {
     let csv = String::from_utf8(tables::runs_csv(&plan, &runs)).expect("it is text");
     assert_eq!(
         csv,
-        "setting,seed,final_generation,evaluations,best,confirmed,success,evaluations_to_target,digest,seconds\n\
+        "setting,seed,final_generation,evaluations,best,validated,apart,success,evaluations_to_target,digest,seconds\n\
          base,1,0,10,,,,,d1ce,0.250\nbase,1,0,10,1,,,,d1ce,0.250\n"
     );
 }

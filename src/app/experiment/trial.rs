@@ -2,9 +2,11 @@
 
 use super::super::catalogue::Visitor;
 use super::super::config::Config;
+use super::super::result::{VALIDATION_TRIALS, lowest_mean};
 use super::super::subject::Subject;
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
-use crate::evolution::{Fitness, Problem};
+use crate::evolution::Fitness;
+use crate::evolution::population::mean_of_pairs;
 use serde::{Deserialize, Serialize};
 
 /// A run that is ended by its evaluations ends as well after so many generations in which there was none: there will
@@ -18,8 +20,10 @@ pub struct Trial {
     pub digest: String,
     /// The unit of fitness.
     pub unit: String,
-    /// The best fitness of a champion in the eyes of [`Problem::confirm`], if it has a say.
-    pub confirmed: Option<f64>,
+    /// What the best champion is worth on fresh trials, in the engine that gives it less, where there are engines.
+    pub validated: Option<f64>,
+    /// The mean distance of two islands' champions, from 0 (all equal) to 1; none of a single island.
+    pub apart: Option<f64>,
     /// Every generation, from 0.
     pub curve: Vec<Point>,
 }
@@ -45,9 +49,10 @@ impl Trial {
         *self.curve.last().expect("a run has a generation 0")
     }
 
-    /// The best fitness, negative infinity if nothing could be scored.
-    pub fn best(&self) -> f64 {
-        self.end().best.unwrap_or(f64::NEG_INFINITY)
+    /// What it is compared by: what the best is worth on fresh trials, or where there are none its fitness; negative
+    /// infinity if nothing could be scored.
+    pub fn worth(&self) -> f64 {
+        self.validated.or(self.end().best).unwrap_or(f64::NEG_INFINITY)
     }
 
     /// How many evaluations there had been after the first generation whose best was at least `target`.
@@ -81,7 +86,7 @@ impl<S: Fn() -> bool> Visitor for Evolve<'_, S> {
     }
 }
 
-fn evolve<P: Problem>(
+fn evolve<P: Subject>(
     problem: &P,
     config: &Config,
     evaluations: Option<u64>,
@@ -102,8 +107,16 @@ fn evolve<P: Problem>(
     );
     let digest = Digest::of(&islands).to_string();
     let unit = problem.unit().to_owned();
-    let confirmed = record.confirmed.and_then(Fitness::finite);
-    (!stopped).then_some(Trial { digest, unit, confirmed, curve: record.curve })
+    if stopped {
+        return None;
+    }
+    let champions = islands.iter().map(|island| &island.champion);
+    let best = champions.clone().max_by_key(|champion| champion.fitness)?;
+    let validated = lowest_mean(&problem.fresh(&best.genome, VALIDATION_TRIALS));
+    let genomes: Vec<&[P::Gene]> = champions.map(|champion| champion.genome.as_slice()).collect();
+    let apart = mean_of_pairs(&genomes, |a, b| problem.distance(a, b));
+    let apart = (genomes.len() > 1).then_some(apart);
+    Some(Trial { digest, unit, validated, apart, curve: record.curve })
 }
 
 /// What a run may spend.
@@ -131,7 +144,6 @@ struct Record {
     reports: Vec<Report>,
     evaluations: u64,
     best: Fitness,
-    confirmed: Option<Fitness>,
     curve: Vec<Point>,
 }
 
@@ -142,14 +154,11 @@ impl Record {
             reports: Vec::new(),
             evaluations: 0,
             best: Fitness::WORST,
-            confirmed: None,
             curve: Vec::new(),
         }
     }
 
     fn observe<G>(&mut self, step: &Step<G>) {
-        let confirmed = step.champion.as_ref().and_then(|champion| champion.confirmed);
-        self.confirmed = self.confirmed.max(confirmed);
         self.best = self.best.max(step.island.champion.fitness);
         self.evaluations += step.report.effort.evaluations;
         self.reports.push(step.report);
@@ -237,6 +246,6 @@ mod tests {
         let reached = trial.evaluations_to(second.best.expect("something was scored"));
         let first = trial.curve.iter().find(|point| point.best == second.best);
         assert_eq!(reached, first.map(|point| point.evaluations));
-        assert_eq!(trial.evaluations_to(trial.best() + 1.0), None);
+        assert_eq!(trial.evaluations_to(1e9), None);
     }
 }

@@ -47,7 +47,7 @@ impl<P: Subject> Ancestry<P> {
             self.lineage.push(report.island, births);
         }
         if let Some(champion) = champion {
-            let (id, standing) = (champion.individual.id, champion.standing());
+            let (id, standing) = (champion.individual.id, champion.individual.fitness);
             self.champions[island].push((champion.generation, id, standing));
         }
         self.known[island] = report.generation + 1;

@@ -54,6 +54,7 @@ impl Studio {
                 args.robustness.unwrap_or(trials),
                 args.robust_by.unwrap_or(by),
             )?,
+            judged: args.judged.unwrap_or(problem.judged),
             terrain: args.terrain.read()?.or(problem.terrain),
             ..problem
         };

@@ -137,9 +137,9 @@ fn champions(dir: &RunDir, config: &Config) -> Result<Vec<Individual<Gene>>, Fai
     all.sort_by_key(|&(generation, island, _)| (generation, island));
     let mut best = None;
     let better = all.into_iter().filter(|(.., champion)| {
-        let is_better = best.is_none_or(|best| champion.standing() > best);
+        let is_better = best.is_none_or(|best| champion.individual.fitness > best);
         if is_better {
-            best = Some(champion.standing());
+            best = Some(champion.individual.fitness);
         }
         is_better
     });

@@ -11,14 +11,14 @@ pub fn command(dir: &RunDir, config: &Config) -> String {
     format!("islands replay {genome} {}--out champion.rrd", flags.concat())
 }
 
-/// What differs from a trial for which nothing is said: but for the engine, since rapier has the last word of
-/// champions.
+/// How the run tried its bodies.
 fn flags(dir: &RunDir, config: &Config) -> Vec<String> {
     let mut flags = vec![format!("--task {} --profile {}", config.task, config.profile)];
     flags.extend(config.scales.iter().map(|(name, scale)| format!("--scale {name}={scale}")));
-    if config.robustness > 0 {
-        flags.push(format!("--robustness {} --robust-by {}", config.robustness, config.robust_by));
-    }
+    let Config { robustness, robust_by, judged, engine, .. } = config;
+    flags.push(format!(
+        "--engine {engine} --robustness {robustness} --robust-by {robust_by} --judged={judged}"
+    ));
     flags.push(format!("--max-links {}", config.max_links));
     if config.terrain.is_some() {
         flags.push(format!("--terrain {}", quoted(&dir.terrain())));
@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(
             command(&RunDir::at("my run"), &config),
             "islands replay 'my run/champion.csv' --task climb --profile coursework --scale link-length=0.5 \
-             --robustness 3 --robust-by mean --max-links 9 --terrain 'my run/terrain.csv' --out champion.rrd"
+             --engine featherstone --robustness 3 --robust-by mean --judged=true --max-links 9 --terrain 'my run/terrain.csv' --out champion.rrd"
         );
     }
 }

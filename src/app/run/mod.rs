@@ -238,12 +238,27 @@ fn present(summary: &Summary, config: &Config, output: &OutputArgs) {
     }
 }
 
+/// What is to be said of a champion that gets less than this share of its fitness on fresh trials.
+const LUCK: f64 = 0.75;
+
+fn luck(summary: &Summary) -> Option<String> {
+    let validated = summary.validated.filter(|&worth| worth < LUCK * summary.best_fitness)?;
+    Some(format!(
+        "warning: the best was lucky: of the {} that it was selected by, {validated:.2} {} hold on fresh trials; more \
+         --robustness helps",
+        summary.best, summary.unit
+    ))
+}
+
 fn show(summary: &Summary, config: &Config) {
+    print(&format!("best     {}, island {}", summary.best, summary.best_island));
+    summary.validation.iter().for_each(|one| print(&format!("holds    {}", one.in_words(&summary.unit))));
+    if let Some(warning) = luck(summary) {
+        say(&warning);
+    }
     print(&format!(
-        "best     {}, island {}\nfound in {} evaluations, {:.1} a second; {} failed\n\
+        "found in {} evaluations, {:.1} a second; {} failed\n\
          reused   {} scores, of genomes known already\ndigest   {}\nfiles    {}",
-        summary.best,
-        summary.best_island,
         summary.evaluations,
         summary.evaluations_per_second,
         summary.failures,

@@ -8,7 +8,7 @@ use crate::creature::{Creature, Gene};
 use crate::evolution::{Evaluation, Outcome};
 use crate::evolution::{Fitness, Problem};
 use crate::formats::{genome_csv, urdf};
-use crate::problems::Locomotion;
+use crate::problems::{Locomotion, Validation};
 #[cfg(feature = "view")]
 use crate::simulation::{Ground, Trajectory};
 use std::io::{self, Write};
@@ -41,8 +41,9 @@ impl Subject for Locomotion {
         Some(file)
     }
 
-    fn judge(&self) -> Option<Self> {
-        Locomotion::judge(self)
+    fn fresh(&self, genome: &[Gene], trials: u32) -> Vec<Validation> {
+        let Ok(creature) = self.express(genome) else { return Vec::new() };
+        self.validate_in_each(&creature, trials)
     }
 
     fn short(&self, fitness: Fitness) -> String {

@@ -9,6 +9,7 @@ use crate::creature::{Controller, Morphology};
 #[cfg(feature = "view")]
 use crate::evolution::Evaluation;
 use crate::evolution::{Fitness, Problem};
+use crate::problems::Validation;
 #[cfg(feature = "view")]
 use crate::simulation::{Ground, Trajectory};
 use std::io::{self, Write};
@@ -40,9 +41,9 @@ pub trait Subject: Problem + Clone + Send {
         None
     }
 
-    /// The problem as [`Problem::confirm`] judges it, where there is a judge.
-    fn judge(&self) -> Option<Self> {
-        None
+    /// What so many trials in each engine come to that nobody was selected on, where there are engines.
+    fn fresh(&self, _genome: &[Self::Gene], _trials: u32) -> Vec<Validation> {
+        Vec::new()
     }
 
     /// A fitness as a label has room for.

@@ -2,7 +2,7 @@
 
 use super::arrivals;
 use super::check::{Check, counted};
-use super::retrial::Claim;
+use super::retrial::{Claim, Measure};
 use super::rules::Terms;
 use crate::archipelago::{Arrivals, Births, Champion, Island, Outbox};
 use crate::evolution::{Fitness, Gene, Individual};
@@ -57,28 +57,29 @@ impl<G: Gene> Records<G> {
         let champions = (0..).zip(&self.champions).flat_map(|(island, champions)| {
             champions.iter().map(move |champion| (island, champion))
         });
-        let claim = move |who, island, generation, individual: &'a Individual<G>| {
+        let claim = move |who, by, island, generation, individual: &'a Individual<G>| {
             let fitness = individual.fitness;
-            Claim { who, island, generation, genome: &individual.genome, fitness, judged: false }
+            Claim { who, island, generation, genome: &individual.genome, fitness, by }
         };
         let champions = champions.flat_map(move |(island, champion): (u32, &'a Champion<G>)| {
-            let Champion { generation, ref individual, confirmed } = *champion;
-            let own = claim("champion", island, generation, individual);
-            let fitness = confirmed.unwrap_or(Fitness::WORST);
-            let other = Claim { who: "confirmed champion", fitness, judged: true, ..own };
-            let other = terms.is_judged.then_some(other);
+            let Champion { generation, ref individual, validated } = *champion;
+            let own = claim("champion", Measure::Whole, island, generation, individual);
+            let fitness = validated.unwrap_or(Fitness::WORST);
+            let by = Measure::Fresh;
+            let other = Claim { who: "validated champion", fitness, by, ..own };
+            let other = terms.is_validated.then_some(other);
             std::iter::once(own).chain(other)
         });
         let residents = self.states.iter().flat_map(|state| {
             let Island { index: island, generation, .. } = *state;
-            let claim = move |individual| claim("resident", island, generation, individual);
+            let claim = move |individual| claim("resident", Measure::Estimate, island, generation, individual);
             state.population.iter().map(claim)
         });
         let interval = terms.config.migration_interval;
         let migrants = self.outboxes.iter().flatten().flat_map(|outbox| {
             let island = outbox.island;
             let generation = outbox.epoch.saturating_add(1).saturating_mul(interval);
-            let claim = move |individual| claim("migrant", island, generation, individual);
+            let claim = move |individual| claim("migrant", Measure::Estimate, island, generation, individual);
             outbox.migrants.iter().map(claim)
         });
         match thorough {

@@ -4,7 +4,7 @@ use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::super::subject::Subject;
 use super::check::{Check, counted};
-use crate::evolution::{Fitness, Gene, sharing};
+use crate::evolution::{Fitness, Gene, Hurdles, sharing};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -29,8 +29,19 @@ pub struct Claim<'a, G> {
     pub genome: &'a [G],
     /// What it is said to be worth…
     pub fitness: Fitness,
-    /// … in the eyes of the judge, or else of the problem itself.
-    pub judged: bool,
+    /// … by this measure.
+    pub by: Measure,
+}
+
+/// What somebody's worth is measured by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Measure {
+    /// The whole score.
+    Whole,
+    /// The whole score, or an estimate of who did not get over a hurdle: see [`Hurdles`].
+    Estimate,
+    /// Trials that nobody was selected on.
+    Fresh,
 }
 
 /// Somebody who is not as good as a file says.
@@ -88,15 +99,15 @@ pub fn retry<P: Subject>(claims: &[Claim<P::Gene>], config: &Config, problem: &P
     let found = evaluate(trials, problem);
     let mismatch = |claim: &Claim<P::Gene>| {
         let Claim { who, island, generation, fitness: recorded, .. } = *claim;
-        let found = found.get(&key(claim)).copied();
+        let found = found.get(&key(claim)).map(Vec::as_slice).unwrap_or_default();
         let bits = |fitness: Fitness| fitness.get().to_bits();
-        let is_right = found.map(bits) == Some(bits(recorded));
+        let is_right = found.iter().any(|&found| bits(found) == bits(recorded));
         (!is_right).then(|| Mismatch {
             who,
             island,
             generation,
             recorded: recorded.saturated(),
-            found: found.map(Fitness::saturated),
+            found: found.last().copied().map(Fitness::saturated),
         })
     };
     let mismatches = claims.iter().filter_map(mismatch).collect();
@@ -108,31 +119,35 @@ fn may_have_lived<G: Gene>(genome: &[G], config: &Config) -> bool {
     (1..=config.max_genes).contains(&genome.len()) && genome.iter().all(G::is_valid)
 }
 
-/// The fitness of each genome.
+/// The fitness of each genome, or all that it may have: the whole score is the last.
 fn evaluate<'a, P: Subject>(
     trials: BTreeMap<Key<'a>, &Claim<P::Gene>>,
     problem: &P,
-) -> BTreeMap<Key<'a>, Fitness> {
-    let judge = problem.judge();
+) -> BTreeMap<Key<'a>, Vec<Fitness>> {
     let trials: Vec<_> = trials.into_iter().collect();
     let meter = Meter::new(trials.len());
     let costs: Vec<u64> = trials.iter().map(|(_, claim)| problem.cost(claim.genome)).collect();
     let found = sharing::dearest_first(&costs, |index| {
         let (key, claim) = trials[index];
-        let scorer = judge.as_ref().filter(|_| claim.judged).unwrap_or(problem);
-        let evaluation = scorer.evaluate(claim.genome);
+        let found = match claim.by {
+            Measure::Whole => vec![problem.evaluate(claim.genome).fitness],
+            Measure::Estimate => {
+                Hurdles::each().map(|it| problem.estimate(claim.genome, &it).fitness).to_vec()
+            }
+            Measure::Fresh => problem.validate(claim.genome).into_iter().collect(),
+        };
         meter.tick();
-        (key, evaluation.fitness)
+        (key, found)
     });
     meter.finish();
     found.into_iter().collect()
 }
 
 /// What is simulated once. Equal genomes have equal bytes.
-type Key<'a> = (bool, &'a [u8]);
+type Key<'a> = (Measure, &'a [u8]);
 
 fn key<'a, G: Gene>(claim: &Claim<'a, G>) -> Key<'a> {
-    (claim.judged, bytemuck::cast_slice(claim.genome))
+    (claim.by, bytemuck::cast_slice(claim.genome))
 }
 
 /// How far it has come: a bar on a terminal, now and then a line elsewhere.

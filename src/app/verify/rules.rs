@@ -21,8 +21,8 @@ pub struct Terms<'a> {
     pub config: &'a Config,
     /// Whether it has come to its end: then its logs are complete.
     pub finished: bool,
-    /// Whether its champions were confirmed by another judge.
-    pub is_judged: bool,
+    /// Whether its champions were tried on fresh trials.
+    pub is_validated: bool,
     archipelago: Archipelago,
     graph: Graph,
     settings: String,
@@ -30,10 +30,10 @@ pub struct Terms<'a> {
 
 impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
-    pub fn new(config: &'a Config, finished: bool, is_judged: bool) -> Self {
+    pub fn new(config: &'a Config, finished: bool, is_validated: bool) -> Self {
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
         let graph = archipelago.graph();
-        Self { config, finished, is_judged, archipelago, graph, settings }
+        Self { config, finished, is_validated, archipelago, graph, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -193,11 +193,11 @@ impl<'a> Terms<'a> {
         if champions.first().is_some_and(|first| first.generation != 0) {
             return Err("its first champion is not of generation 0".to_owned());
         }
-        let is_judged = self.is_judged;
-        if champions.iter().any(|champion| champion.confirmed.is_some() != is_judged) {
-            return Err(match is_judged {
-                true => "it has a champion that rapier did not confirm".to_owned(),
-                false => "it has a champion that was confirmed, as none of this run is".to_owned(),
+        let is_validated = self.is_validated;
+        if champions.iter().any(|champion| champion.validated.is_some() != is_validated) {
+            return Err(match is_validated {
+                true => "it has a champion that was not tried on fresh trials".to_owned(),
+                false => "it has a champion that was tried on fresh trials, as none of this run is".to_owned(),
             });
         }
         for pair in champions.windows(2) {

@@ -1,7 +1,7 @@
 //! A problem that evolves in microseconds, and with it an archipelago.
 
 use crate::archipelago::{Archipelago, Migration, Topology};
-use crate::evolution::{Evaluation, Gene, Problem, Selection, Strategy, Variation};
+use crate::evolution::{Evaluation, Gene, Hurdles, Problem, Selection, Strategy, Variation};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
@@ -78,7 +78,7 @@ impl Problem for Toy {
     }
 
     // A pool of threads would take far longer than the work.
-    fn evaluate_batch(&self, genomes: &[&[Bit]]) -> Vec<Evaluation> {
+    fn estimate_batch(&self, genomes: &[&[Bit]], _: &Hurdles) -> Vec<Evaluation> {
         genomes.iter().map(|genome| self.evaluate(genome)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! The engine of record: rapier's multibodies, in reduced coordinates.
+//! rapier's multibodies, in reduced coordinates: the engine that our own one is judged by.
 //!
 //! Joints of rapier's multibodies cannot drift apart, as its impulse joints do under random bodies.
 //!

@@ -188,8 +188,8 @@ fn reports_arrive_with_and_without_a_champion() {
     let (domain, archipelago, _harbour) = launch(5, 2);
     let lookout = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
     let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
-    let confirmed = Some(Fitness::new(0.25));
-    let champion = Champion { generation: 7, individual: individual(0, 3, 1), confirmed };
+    let validated = Some(Fitness::new(0.25));
+    let champion = Champion { generation: 7, individual: individual(0, 3, 1), validated };
     exchange.report(&report(1, 7), 0.5, Some(&champion)).unwrap();
     exchange.report(&report(1, 8), 0.25, None).unwrap();
     let first = Sighting { report: report(1, 7), seconds: 0.5, champion: Some(champion) };
@@ -259,7 +259,7 @@ fn every_malformed_outbox_is_rejected() {
 
 #[test]
 fn every_malformed_report_is_rejected() {
-    let champion = Champion { generation: 6, individual: individual(1, 6, 1), confirmed: None };
+    let champion = Champion { generation: 6, individual: individual(1, 6, 1), validated: None };
     let genes: Vec<_> = champion.individual.genome.iter().map(|&gene| WireGene(gene)).collect();
     let header = limits().report(&report(1, 6), 0.5, Some(&champion)).unwrap();
     assert!(limits().sighting(header, &genes).is_ok());
