@@ -12,8 +12,10 @@ mod lab;
 mod ledger;
 mod pendulum;
 mod perturbed;
+mod rolling;
 mod sliding;
 mod slopes;
+mod spinning;
 
 use super::perturbation::Perturbation;
 use super::terrain::Ground;
