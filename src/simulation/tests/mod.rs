@@ -10,6 +10,7 @@ mod flight;
 mod hinge;
 mod lab;
 mod ledger;
+mod motors;
 mod pendulum;
 mod perturbed;
 mod rolling;
