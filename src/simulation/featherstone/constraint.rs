@@ -151,7 +151,7 @@ impl<F: Facing> Contact<F> {
     ) -> Self {
         let start = entries.len();
         let mut block = Block::default();
-        let wrenches = touch.facing.wrenches(&touch.point_m);
+        let wrenches = touch.facing.wrenches(&touch.acts_m);
         let root = factor.whiten_wrenches(touch.link, wrenches, |hinge, y| {
             block.add(&y);
             entries.push(Entry { hinge, y: y.map(|y| y as f32) });

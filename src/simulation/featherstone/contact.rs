@@ -105,8 +105,10 @@ pub struct Touch<F = Level> {
     pub name: usize,
     /// Its link.
     pub link: usize,
-    /// Where it is, from the reference, in metres.
+    /// Where it is half a step ahead, from the reference, in metres: its velocity is that of the link there.
     pub point_m: Vector3<f64>,
+    /// Where it is when the step begins, from the reference, in metres: the ground pushes it there.
+    pub acts_m: Vector3<f64>,
     /// Its height over the ground when the step begins, negative below it, in metres.
     pub height_m: f64,
     /// The way that the ground faces there.
@@ -133,11 +135,16 @@ fn find(surfaces: &[Surface], stance: Stance, touches: &mut Vec<Touch>) {
         let centre_m = place.origin_m + place.rotation * surface.centre_m;
         if stance.can_reach(surface, &centre_m) {
             let (points, count) = surface.points(&centre_m, &place.rotation);
+            let velocity = &stance.velocities[surface.link];
+            let motion = surface.outline_motion(velocity, &centre_m, &place.rotation, &Level);
             for (corner, point_m) in points.iter().enumerate().take(count) {
-                if let Some(height_m) = stance.touches(surface.link, point_m) {
+                let way_m = motion.velocity_at(point_m) * stance.step_s;
+                let acts_m = point_m - way_m * 0.5;
+                let height_m = stance.reference_m.z + acts_m.z;
+                if height_m + way_m.z.min(0.0) < MARGIN_M {
                     let name = index * POINTS_PER_SOLID + corner;
                     let (link, point_m) = (surface.link, *point_m);
-                    touches.push(Touch { name, link, point_m, height_m, facing: Level });
+                    touches.push(Touch { name, link, point_m, acts_m, height_m, facing: Level });
                 }
             }
         }
@@ -152,13 +159,6 @@ impl Stance<'_> {
         let speed_m_s = velocity.velocity_at(centre_m).z.abs() + turn_m_s;
         let lowest_m = self.reference_m.z + centre_m.z - surface.reach_m;
         lowest_m - 0.5 * speed_m_s * self.step_s < MARGIN_M
-    }
-
-    /// The height of a point when the step begins, half a step before its place, if it touches by the step's end.
-    fn touches(&self, link: usize, point_m: &Vector3<f64>) -> Option<f64> {
-        let rise_m = self.velocities[link].velocity_at(point_m).z * self.step_s;
-        let height_m = self.reference_m.z + point_m.z - 0.5 * rise_m;
-        (height_m + rise_m.min(0.0) < MARGIN_M).then_some(height_m)
     }
 }
 
@@ -182,6 +182,30 @@ impl Surface {
             centre_m + if corner < 4 { spoke_m + end_m } else { spoke_m - end_m }
         });
         (points, POINTS_PER_SOLID)
+    }
+
+    /// The motion of the points that it can touch with, given the velocity of its link. Corners move with the link; the
+    /// lowest point of what is round stays lowest while the link rolls.
+    pub fn outline_motion(
+        &self,
+        velocity: &Spatial,
+        centre_m: &Vector3<f64>,
+        rotation: &Matrix3<f64>,
+        facing: &impl Facing,
+    ) -> Spatial {
+        let turn = velocity.angular();
+        match self.outline {
+            Outline::Corners => *velocity,
+            Outline::Rims => {
+                let up = rotation * self.axes.column(2);
+                let spin = up * up.dot(&turn);
+                *velocity - Spatial::new(spin, centre_m.cross(&spin))
+            }
+            Outline::Ends(_) => {
+                let roll_m_s = turn.cross(&(facing.up() * self.half_m.x));
+                *velocity + Spatial::new(Vector3::zeros(), roll_m_s)
+            }
+        }
     }
 
     /// The lowest point of a round end, as if it were in the middle, and the way from there to its place.

@@ -20,6 +20,11 @@
 //! [`FeatherstoneWorld::swing`] makes up for that half a step. An undriven chain keeps its energy to 1 in 1,000 over
 //! ten seconds this way; with axes or places that are off by half a step some gain a third or lose a tenth.
 //!
+//! Forces act between two such middles, too, which is where the body is when a step begins: weights at the links'
+//! centres ([`FeatherstoneWorld::fall`]), the ground at the points that it touches ([`contact::Touch::acts_m`]). Both
+//! must: a weight half a step ahead damps what swings, a ground half a step ahead of the weight brakes what rolls. The
+//! lowest point of what is round goes along with its centre, and a corner that sticks stays where it is.
+//!
 //! # Motors that hold
 //!
 //! Most motors are strong enough at most moments. Their hinges then turn exactly as they should, and need neither a
@@ -155,7 +160,7 @@ impl<G: Footing> FeatherstoneWorld<G> {
     }
 
     /// Adds to the links' momenta what gravity does. Like all impulses of a step it acts half a step before the places
-    /// that it is evaluated at: a weight that acted there would damp whatever swings.
+    /// that it is evaluated at.
     fn fall(&mut self) {
         let links = self.momenta.iter().zip(&self.velocities).zip(&self.places);
         for (free, ((momentum, velocity), place)) in self.free_momenta.iter_mut().zip(links) {
@@ -218,7 +223,7 @@ impl<G: Footing> FeatherstoneWorld<G> {
         }
         for contact in &self.solver.contacts {
             let impulse_ns = contact.world_impulse_ns();
-            let wrench = Spatial::of_force_at(&impulse_ns, &contact.touch.point_m);
+            let wrench = Spatial::of_force_at(&impulse_ns, &contact.touch.acts_m);
             self.transmitted[contact.touch.link] -= wrench;
         }
         for index in (1..self.transmitted.len()).rev() {
@@ -276,7 +281,8 @@ impl<G: Footing> FeatherstoneWorld<G> {
         }
     }
 
-    /// Moves the body by its velocities, and all dynamics to half a step ahead of it.
+    /// Moves the body by its velocities, and all dynamics to half a step ahead of it. Momenta stay where they act;
+    /// velocities go with the links, which find the ground by them.
     fn advance(&mut self) {
         let before_m = self.midway.position_m;
         self.configuration.advance(&self.velocities[0], &self.rates_rad_s, self.step_s);
@@ -284,9 +290,12 @@ impl<G: Footing> FeatherstoneWorld<G> {
         self.midway.advance(&self.velocities[0], &self.rates_rad_s, 0.5 * self.step_s);
         self.midway.place(&self.model, &mut self.places);
         let shift_m = self.midway.position_m - before_m;
-        for (velocity, momentum) in self.velocities.iter_mut().zip(&mut self.momenta) {
-            *velocity = velocity.motion_about(&shift_m);
+        for momentum in &mut self.momenta {
             *momentum = momentum.wrench_about(&shift_m);
+        }
+        for (index, link) in self.model.links.iter().enumerate().skip(1) {
+            let turn = self.places[index].axis * self.rates_rad_s[index];
+            self.velocities[index] = self.velocities[link.parent] + turn;
         }
     }
 

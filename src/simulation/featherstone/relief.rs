@@ -9,6 +9,7 @@ use super::super::terrain::Terrain;
 use super::contact::{Facing, Footing, MARGIN_M, Stance, Touch};
 use super::kinematics::Place;
 use super::model::{Outline, Surface};
+use super::spatial::Spatial;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Four points at each of four places along the axis of a solid.
@@ -151,12 +152,14 @@ impl Foot<'_> {
 
     /// Touches the ground with the points that are lowest where it faces a way, the first of which has a name.
     fn touch_facets(&mut self, terrain: &Terrain, up: Vector3<f64>, first: usize) {
-        let (points, count) = self.points(&Slope::towards(up));
+        let towards = Slope::towards(up);
+        let (points, count) = self.points(&towards);
+        let motion = self.motion(&towards);
         for (corner, point_m) in points.iter().enumerate().take(count) {
             let at_m = self.stance.reference_m + point_m;
             let facet = terrain.facet(at_m.x, at_m.y);
             let height_m = (at_m.z - facet.height_m) * facet.normal.z;
-            self.touch(first + corner, point_m, height_m, facet.normal);
+            self.touch(first + corner, point_m, &motion, height_m, facet.normal);
         }
     }
 
@@ -169,31 +172,49 @@ impl Foot<'_> {
         }
         let side = centre_m.signum();
         let inwards = -side * Vector3::ith(axis, 1.0);
-        let (points, count) = self.points(&Slope::towards(inwards));
+        let towards = Slope::towards(inwards);
+        let (points, count) = self.points(&towards);
+        let motion = self.motion(&towards);
         for (corner, point_m) in points.iter().enumerate().take(count) {
             let at_m = self.stance.reference_m + point_m;
             let within_m = half_m - side * at_m[axis];
             let above_m = at_m.z - terrain.wall_top_m();
             let corner = (axis + 1) * POINTS + corner;
             if within_m < 0.0 && above_m >= within_m {
-                self.touch(corner, point_m, above_m, Vector3::z());
+                self.touch(corner, point_m, &motion, above_m, Vector3::z());
             } else if above_m < 0.0 {
-                self.touch(corner, point_m, within_m, inwards);
+                self.touch(corner, point_m, &motion, within_m, inwards);
             }
         }
     }
 
-    /// Notes a point that is so high over a ground that faces a way, half a step ahead, if it touches by the end of
-    /// the step.
-    fn touch(&mut self, corner: usize, point_m: &Vector3<f64>, ahead_m: f64, up: Vector3<f64>) {
+    /// Notes a point that has a motion and is so high over a ground that faces a way, half a step ahead, if it touches
+    /// by the end of the step.
+    fn touch(
+        &mut self,
+        corner: usize,
+        point_m: &Vector3<f64>,
+        motion: &Spatial,
+        ahead_m: f64,
+        up: Vector3<f64>,
+    ) {
         let link = self.surface.link;
-        let velocity_m_s = self.stance.velocities[link].velocity_at(point_m);
-        let rise_m = up.dot(&velocity_m_s) * self.stance.step_s;
+        let way_m = motion.velocity_at(point_m) * self.stance.step_s;
+        let rise_m = up.dot(&way_m);
         let height_m = ahead_m - 0.5 * rise_m;
         if height_m + rise_m.min(0.0) < MARGIN_M {
             let (name, facing) = (self.name + corner, Slope::towards(up));
-            self.touches.push(Touch { name, link, point_m: *point_m, height_m, facing });
+            let acts_m = point_m - way_m * 0.5;
+            let point_m = *point_m;
+            self.touches.push(Touch { name, link, point_m, acts_m, height_m, facing });
         }
+    }
+
+    /// The motion of its points, where the ground faces a way.
+    fn motion(&self, facing: &Slope) -> Spatial {
+        let Self { stance, surface, centre_m, place, .. } = self;
+        let velocity = &stance.velocities[surface.link];
+        surface.outline_motion(velocity, centre_m, &place.rotation, facing)
     }
 
     /// The points that it can touch a ground with that faces a way, from the reference, and how many there are.

@@ -60,12 +60,6 @@ impl Spatial {
         Self::new(place.cross(force), *force)
     }
 
-    /// This motion with another reference, which is there in terms of the present one.
-    #[inline]
-    pub fn motion_about(&self, place: &Vector3<f64>) -> Self {
-        Self::new(self.angular(), self.velocity_at(place))
-    }
-
     /// This wrench with another reference, which is there in terms of the present one.
     #[inline]
     pub fn wrench_about(&self, place: &Vector3<f64>) -> Self {

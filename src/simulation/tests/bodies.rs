@@ -4,6 +4,7 @@ use crate::creature::{
     Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
+use std::f64::consts::FRAC_PI_2;
 
 /// A body of boxes that is being put together.
 pub struct Body(Creature);
@@ -72,6 +73,26 @@ pub const SLED_M: [f64; 3] = [0.25, 0.2, 0.1];
 /// A flat box to slide on.
 pub fn sled() -> Body {
     Body::of(SLED_M, 2.0)
+}
+
+/// A ball.
+pub fn ball(radius_m: f64) -> Creature {
+    of_shape(Shape::Sphere { radius_m })
+}
+
+/// A wheel that rolls along x: a cylinder that lies along y.
+pub fn wheel(radius_m: f64, length_m: f64) -> Creature {
+    let mut wheel = of_shape(Shape::Cylinder { radius_m, length_m });
+    let lying = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
+    wheel.morphology.root_rotation = lying;
+    wheel
+}
+
+/// A body of one solid of 2 kg.
+fn of_shape(shape: Shape) -> Creature {
+    let mut creature = sled().build();
+    creature.morphology.links[0].shape = shape;
+    creature
 }
 
 /// A sled with a rider, who is free to turn, so that it is jointed.

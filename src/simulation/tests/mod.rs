@@ -10,10 +10,13 @@ mod flight;
 mod hinge;
 mod lab;
 mod ledger;
+mod motors;
 mod pendulum;
 mod perturbed;
+mod rolling;
 mod sliding;
 mod slopes;
+mod spinning;
 
 use super::perturbation::Perturbation;
 use super::terrain::Ground;
