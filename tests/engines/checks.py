@@ -6,10 +6,12 @@ from pathlib import Path
 
 import numpy as np
 
+import claims
 import hand
 import ros
-from exports import Islands, Specimen
+import verdicts
 from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
+from program import Islands, Specimen
 
 ENGINES = ("islands", "PyBullet", "MuJoCo")
 # Of masses, inertias and poses, relative to the size of the body.
@@ -17,6 +19,11 @@ SAME = 1e-5
 # Of motion that is not chaotic.
 ALIKE = 0.02
 FRAMES_PER_S = 60
+# Of what a run claims of its champion: the median of three engines, of any and of the one in the middle.
+HOLDS_MIN = 0.75
+HOLDS_MEDIAN = 0.9
+# Perturbed trials of each in each engine.
+TRIALS = 8
 
 
 def same_bodies(islands: Islands, specimens: list[Specimen]) -> list[str]:
@@ -130,15 +137,36 @@ def _slides_m(islands: Islands, urdf: Path) -> dict[str, float]:
     specimen = Specimen(urdf)
     found = {}
     resting = Trial(COURSE.gravity_m_s2, 0.0, 3.0)
+    push_m_s = np.array([hand.PUSH_M_S, 0.0, 0.0])
     root = UPRIGHT + [0, 0, hand.BOX_HALF_M, 0, 0, 0, 0]
     bullet = InPyBullet(islands.export(specimen, "urdf"), resting, [], root)
-    bullet.push(hand.PUSH_M_S)
+    bullet.push(push_m_s)
     mujoco = InMuJoCo(islands.export(specimen, "mjcf"), resting, [], root)
-    mujoco.push(hand.PUSH_M_S)
+    mujoco.push(push_m_s)
     for engine, player in (("PyBullet", bullet), ("MuJoCo", mujoco)):
         poses = play(player, resting, 1.0)
         found[engine] = float(poses[-1, 0, 0] - poses[0, 0, 0])
     return found
+
+
+def claims_hold(islands: Islands, folder: Path, jobs: int) -> list[str]:
+    """Tries champions of runs as users make them; returns whose claims, which claims.csv says, do not hold elsewhere."""
+    if not (folder / "claims.csv").exists():
+        return [f"claims: there is no {folder / 'claims.csv'}, so that nothing is known of what runs claim"]
+    try:
+        judged = verdicts.judge(islands, claims.of_fixtures(islands, folder, ""), TRIALS, jobs)
+    except claims.NoClaim as error:
+        return [f"claims: {error}"]
+    print("\n".join(table.text() for table in verdicts.tables(judged, TRIALS)))
+    failures = [
+        f"claims: of {verdict.claim.name}'s {verdict.claim.claim_m:.2f} m other engines leave {verdict.ratio:.2f}"
+        for verdict in judged
+        if not verdict.ratio >= HOLDS_MIN
+    ]
+    median = float(np.median([verdict.ratio for verdict in judged]))
+    if not median >= HOLDS_MEDIAN:
+        failures.append(f"claims: in the median other engines leave {median:.2f} of them")
+    return failures
 
 
 def report_walkers(islands: Islands, kind: str, specimens: list[Specimen]) -> None:

@@ -1,10 +1,11 @@
 """The same motor programme, played in PyBullet and in MuJoCo.
 
-A player has a body from a file that islands exported, advances it by steps of 1/240 s, and tells where its links are:
-the centres of their solids, in the order of the body. Its motors are driven as islands drives them.
+A player has a body from a file that islands exported, advances it by steps, and tells where its links are: the centres
+of their solids, in the order of the body. Its motors are driven as islands drives them.
 """
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol
@@ -14,9 +15,12 @@ import mujoco
 import numpy as np
 import pybullet
 
+from terrain import Terrain
+
 STEPS_PER_S = 240
-# Of ground and body each. PyBullet multiplies them; the exported MJCF has their product.
+# Of ground and body each. PyBullet multiplies them; MuJoCo is given their product.
 FRICTION = 0.5
+GRIP = FRICTION**2
 
 
 @dataclass
@@ -47,6 +51,11 @@ class Trial:
     gravity_m_s2: float
     settle_s: float
     scored_s: float
+    steps_per_s: int = STEPS_PER_S
+    # Friction between ground and body.
+    grip: float = GRIP
+    # What the body stands on; none is a plane.
+    terrain: Terrain | None = None
 
 
 WALK = Trial(9.81, 0.5, 8.0)
@@ -62,7 +71,16 @@ class Player(Protocol):
     motors: list[Motor]
 
     def step(self) -> None:
-        """Advances by 1/240 s."""
+        """Advances by a step."""
+
+    def halt(self) -> None:
+        """Takes all speed from the body."""
+
+    def push(self, velocity_m_s: np.ndarray) -> None:
+        """Gives the whole body a velocity on top of its own."""
+
+    def is_sound(self) -> bool:
+        """Whether the engine has kept to numbers so far."""
 
     def drive(self, targets_rad_s: list[float]) -> None:
         """Sets the speeds that the motors aim at."""
@@ -98,10 +116,10 @@ class InPyBullet:
         if not pybullet.isConnected():
             pybullet.connect(pybullet.DIRECT)
         pybullet.resetSimulation()
-        pybullet.setPhysicsEngineParameter(enableFileCaching=0, fixedTimeStep=1 / STEPS_PER_S)
+        pybullet.setPhysicsEngineParameter(enableFileCaching=0, fixedTimeStep=1 / trial.steps_per_s)
         pybullet.setGravity(0, 0, -trial.gravity_m_s2)
-        ground = pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE))
-        pybullet.changeDynamics(ground, -1, lateralFriction=FRICTION)
+        for ground in _grounds_in_pybullet(trial.terrain):
+            pybullet.changeDynamics(ground, -1, lateralFriction=trial.grip / FRICTION)
         # Without this flag PyBullet makes inertias from bounding boxes.
         self.robot = pybullet.loadURDF(str(urdf), flags=pybullet.URDF_USE_INERTIA_FROM_FILE)
         if root is not None:
@@ -129,12 +147,23 @@ class InPyBullet:
         for joint in self.joints.values():
             pybullet.setJointMotorControl2(self.robot, joint, pybullet.VELOCITY_CONTROL, force=0)
 
-    def push(self, speed_m_s: float) -> None:
-        """Gives the root a velocity along x."""
-        pybullet.resetBaseVelocity(self.robot, [speed_m_s, 0, 0])
+    def push(self, velocity_m_s: np.ndarray) -> None:
+        """Gives the whole body a velocity on top of its own: all else is relative to its root's."""
+        linear, angular = pybullet.getBaseVelocity(self.robot)
+        pybullet.resetBaseVelocity(self.robot, list(np.array(linear) + velocity_m_s), angular)
+
+    def halt(self) -> None:
+        """Takes all speed from the body."""
+        pybullet.resetBaseVelocity(self.robot, [0, 0, 0], [0, 0, 0])
+        for joint in self.joints.values():
+            pybullet.resetJointState(self.robot, joint, pybullet.getJointState(self.robot, joint)[0], 0)
+
+    def is_sound(self) -> bool:
+        """Whether the engine has kept to numbers so far."""
+        return bool(np.isfinite(self.poses()).all())
 
     def step(self) -> None:
-        """Advances by 1/240 s."""
+        """Advances by a step."""
         pybullet.stepSimulation()
 
     def drive(self, targets_rad_s: list[float]) -> None:
@@ -150,13 +179,10 @@ class InPyBullet:
 
     def poses(self) -> np.ndarray:
         """The poses of the links, in the order of the body."""
-        rows = [(*position, *rotation) for position, rotation in map(self._pose, self._in_order())]
-        return np.array(rows)
-
-    def _pose(self, link: int) -> tuple:
-        if link == -1:
-            return pybullet.getBasePositionAndOrientation(self.robot)
-        return pybullet.getLinkState(self.robot, link, computeForwardKinematics=1)[:2]
+        states = [pybullet.getBasePositionAndOrientation(self.robot)]
+        if self.joints:
+            states += pybullet.getLinkStates(self.robot, self._in_order()[1:], computeForwardKinematics=1)
+        return np.array([(*state[0], *state[1]) for state in states])
 
     def _in_order(self) -> list[int]:
         """PyBullet numbers links as it finds them; their joints are called by their place in the body."""
@@ -171,13 +197,35 @@ class InPyBullet:
         return np.array([sorted(pybullet.getDynamicsInfo(self.robot, link)[2]) for link in self._in_order()])
 
 
+def _grounds_in_pybullet(terrain: Terrain | None) -> list[int]:
+    """A plane, or a mesh and its walls."""
+    if terrain is None:
+        return [pybullet.createMultiBody(0, pybullet.createCollisionShape(pybullet.GEOM_PLANE))]
+    mesh = pybullet.createCollisionShape(
+        pybullet.GEOM_MESH,
+        vertices=terrain.vertices_m().tolist(),
+        indices=terrain.triangles().ravel().tolist(),
+        flags=pybullet.GEOM_FORCE_CONCAVE_TRIMESH,
+    )
+    boxes = [
+        (pybullet.createCollisionShape(pybullet.GEOM_BOX, halfExtents=wall.half_m), wall.centre_m)
+        for wall in terrain.walls()
+    ]
+    return [pybullet.createMultiBody(0, shape, basePosition=at) for shape, at in [(mesh, (0, 0, 0)), *boxes]]
+
+
 class InMuJoCo:
     """A body in MuJoCo."""
 
     def __init__(self, mjcf: Path, trial: Trial, motors: list[Motor], root: np.ndarray | None = None) -> None:
         """Puts a body where its root begins, or where the file says."""
-        self.model = mujoco.MjModel.from_xml_path(str(mjcf))
+        self.model = mujoco.MjModel.from_xml_string(_on_ground(mjcf.read_text(), trial.terrain))
         self.model.opt.gravity[2] = -trial.gravity_m_s2
+        self.model.opt.timestep = 1 / trial.steps_per_s
+        self.model.geom_friction[:, 0] = trial.grip
+        if trial.terrain is not None:
+            heights_m = trial.terrain.heights_m
+            self.model.hfield_data[:] = ((heights_m - heights_m.min()) / np.ptp(heights_m)).ravel()
         self.data = mujoco.MjData(self.model)
         if root is not None:
             self.data.qpos[:7] = [*root[:3], root[6], *root[3:6]]
@@ -185,13 +233,24 @@ class InMuJoCo:
         self.motors = motors
         names = [motor.joint.replace("joint", "motor") for motor in motors]
         self.actuators = [mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_ACTUATOR, name) for name in names]
+        for motor, actuator in zip(motors, self.actuators):
+            if actuator >= 0:
+                self.model.actuator_forcerange[actuator] = -motor.torque_nm_max, motor.torque_nm_max
 
-    def push(self, speed_m_s: float) -> None:
-        """Gives the root a velocity along x."""
-        self.data.qvel[0] = speed_m_s
+    def push(self, velocity_m_s: np.ndarray) -> None:
+        """Gives the whole body a velocity on top of its own: all else is relative to its root's."""
+        self.data.qvel[:3] += velocity_m_s
+
+    def halt(self) -> None:
+        """Takes all speed from the body."""
+        self.data.qvel[:] = 0
+
+    def is_sound(self) -> bool:
+        """Whether MuJoCo has not put the body back to the start since its numbers were bad."""
+        return not any(self.data.warning[int(warning)].number for warning in _BAD)
 
     def step(self) -> None:
-        """Advances by 1/240 s."""
+        """Advances by a step."""
         mujoco.mj_step(self.model, self.data)
 
     def drive(self, targets_rad_s: list[float]) -> None:
@@ -219,16 +278,55 @@ class InMuJoCo:
         return np.sort(self.model.body_inertia[self._in_order()], axis=1)
 
 
+_BAD = (
+    mujoco.mjtWarning.mjWARN_BADQPOS,
+    mujoco.mjtWarning.mjWARN_BADQVEL,
+    mujoco.mjtWarning.mjWARN_BADQACC,
+)
+
+
+def _on_ground(mjcf: str, terrain: Terrain | None) -> str:
+    """A model that stands on a terrain and within its walls, instead of on its plane."""
+    if terrain is None:
+        return mjcf
+    root = ElementTree.fromstring(mjcf)
+    rows, columns = terrain.heights_m.shape
+    low_m, tall_m = float(terrain.heights_m.min()), float(np.ptp(terrain.heights_m))
+    size = f"{terrain.half_m[0]} {terrain.half_m[1]} {tall_m} 1"
+    field = {"name": "terrain", "nrow": str(rows), "ncol": str(columns), "size": size}
+    ElementTree.SubElement(ElementTree.SubElement(root, "asset"), "hfield", field)
+    world = root.find("worldbody")
+    ground = world.find("geom[@name='ground']")
+    del ground.attrib["size"]
+    ground.attrib |= {"type": "hfield", "hfield": "terrain", "pos": f"0 0 {low_m}"}
+    for wall in terrain.walls():
+        centre, half = (" ".join(map(str, map(float, of))) for of in (wall.centre_m, wall.half_m))
+        ElementTree.SubElement(world, "geom", type="box", pos=centre, size=half, contype="0", conaffinity="1")
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def moving(player: Player, steps: int, update_steps: int) -> Iterator[int]:
+    """Advances a body by so many steps, its motors driven as islands drives them; yields how many steps are done."""
+    for step in range(steps):
+        player.step()
+        if step % update_steps == 0:
+            player.drive([motor.update() for motor in player.motors])
+        yield step + 1
+
+
 def play(player: Player, trial: Trial, period_s: float, frame_steps: int = 4) -> np.ndarray:
     """Plays a trial; returns the poses of all links at its start and after every few steps."""
     frames = [player.poses()]
-    settle = round(trial.settle_s * STEPS_PER_S)
-    update_steps = max(1, round(period_s * STEPS_PER_S))
-    for step in range(settle + round(trial.scored_s * STEPS_PER_S)):
-        player.step()
-        scored = step - settle
-        if scored >= 0 and scored % update_steps == 0:
-            player.drive([motor.update() for motor in player.motors])
-        if (step + 1) % frame_steps == 0:
+
+    def film(step: int) -> None:
+        if step % frame_steps == 0:
             frames.append(player.poses())
+
+    settle = round(trial.settle_s * trial.steps_per_s)
+    for step in range(settle):
+        player.step()
+        film(step + 1)
+    update_steps = max(1, round(period_s * trial.steps_per_s))
+    for step in moving(player, round(trial.scored_s * trial.steps_per_s), update_steps):
+        film(settle + step)
     return np.array(frames)
