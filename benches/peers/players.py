@@ -278,6 +278,49 @@ class InMuJoCo:
         return np.sort(self.model.body_inertia[self._in_order()], axis=1)
 
 
+class DrivenInMuJoCo(InMuJoCo):
+    """A body in MuJoCo whose motors reach their speed if their torque suffices, as in islands and in PyBullet.
+
+    A velocity servo, which is all that MJCF has, gives torque in return for an error of the speed: as stiff as it can
+    be at 240 steps a second, a light limb that carries a heavy body lags behind by several rad/s. MuJoCo's dry friction
+    of a joint is what is meant: a constraint that brings the joint to a speed, 0, with a bounded torque. So the motors
+    are frictions, and in the middle of each step the speed that they aim at is moved from 0 to the target.
+    """
+
+    def __init__(self, mjcf: Path, trial: Trial, motors: list[Motor], root: np.ndarray | None = None) -> None:
+        """Puts a body where its root begins, or where the file says."""
+        super().__init__(mjcf, trial, motors, root)
+        model = self.model
+        model.actuator_gainprm[:] = 0
+        model.actuator_biasprm[:] = 0
+        dofs = {index: model.jnt_dofadr[model.joint(motor.joint).id] for index, motor in enumerate(motors)}
+        # Without torque there is no friction, and no constraint. Constraints are in the order of the joints.
+        driven = [index for index in dofs if motors[index].torque_nm_max > 0]
+        self._driven = sorted(driven, key=dofs.get)
+        for index in self._driven:
+            model.dof_frictionloss[dofs[index]] = motors[index].torque_nm_max
+            # As hard as MuJoCo allows.
+            model.dof_solref[dofs[index]] = 2 * model.opt.timestep, 1
+            model.dof_solimp[dofs[index], :2] = _HARD
+        self._targets_rad_s = np.zeros(len(self._driven))
+        mujoco.mj_forward(model, self.data)
+        assert self.data.nf == len(self._driven), "each motor is a constraint"
+
+    def drive(self, targets_rad_s: list[float]) -> None:
+        """Sets the speeds that the motors aim at."""
+        self._targets_rad_s = np.array([targets_rad_s[index] for index in self._driven])
+
+    def step(self) -> None:
+        """Advances by a step."""
+        mujoco.mj_step1(self.model, self.data)
+        # A friction asks for the acceleration -b v; b is the second number of its row.
+        damping = self.data.efc_KBIP.reshape(-1, 4)[: self.data.nf, 1]
+        self.data.efc_aref[: self.data.nf] += damping * self._targets_rad_s
+        mujoco.mj_step2(self.model, self.data)
+
+
+# What of a motor's error is left to its constraint's softness: MuJoCo's d, from 0 to 1.
+_HARD = 0.99
 _BAD = (
     mujoco.mjtWarning.mjWARN_BADQPOS,
     mujoco.mjtWarning.mjWARN_BADQVEL,

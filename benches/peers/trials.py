@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import progress
-from players import GRIP, InMuJoCo, InPyBullet, Motor, Player, Trial, motors_of, moving
+from players import GRIP, DrivenInMuJoCo, InPyBullet, Motor, Player, Trial, motors_of, moving
 from terrain import ROUGHNESS, Terrain
 
 # The trials' own draws; another number, other trials.
@@ -171,7 +171,7 @@ def _player(engine: str, body: Body, trial: Trial, motors: list[Motor], differs:
     root = _root(body, differs)
     if engine == "PyBullet":
         return InPyBullet(body.urdf, trial, motors, root)
-    return InMuJoCo(body.mjcf, trial, motors, root)
+    return DrivenInMuJoCo(body.mjcf, trial, motors, root)
 
 
 def _root(body: Body, differs: Perturbation) -> np.ndarray:

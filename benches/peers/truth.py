@@ -23,7 +23,10 @@ Ratio     The median of the three figures, as a share of the claim. Near 1 the c
 A trial in which an engine's numbers break down, or the body leaves its terrain, counts as 0 m.
 
 Settings  PyBullet: its defaults, the exported inertias, no damping, motors by VELOCITY_CONTROL with the exported torque,
-          friction 0.5 × 0.5. MuJoCo: the exported model (implicitfast, elliptic cones, Newton). {mujoco}
+          friction 0.5 × 0.5. MuJoCo: the exported model (implicitfast, elliptic cones, Newton, default contacts: a box
+          on a slope of half of what friction holds creeps by 0.3 mm/s) without its servos. Those need an error of the
+          speed to give torque, so that motors are weaker than here and in PyBullet; instead each motor is a constraint
+          of bounded torque, as a joint's dry friction is, that aims at the motor's speed. No link touches another.
 Terrains  Of --task climb and --terrain both engines get the grid of heights with the same triangles, walls and friction.
           The course's mountain is built here by its formula; that it is the program's own is checked by the program,
           which must give a champion the same score on both. Climbing is less certain than walking: neither engine
