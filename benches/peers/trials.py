@@ -16,6 +16,7 @@ import numpy as np
 
 import progress
 from players import GRIP, DrivenInMuJoCo, InPyBullet, Motor, Player, Trial, motors_of, moving
+from program import Islands, Specimen
 from terrain import ROUGHNESS, Terrain
 
 # The trials' own draws; another number, other trials.
@@ -23,7 +24,7 @@ SEED = 2_026
 FINE_STEPS_PER_S = 1_920
 ENGINES = ("PyBullet", "MuJoCo", "MuJoCo 1,920 Hz")
 
-_TRACK_SAMPLE_S = 0.1
+TRACK_SAMPLE_S = 0.1
 _FRICTION_SHARE = 0.25
 _TORQUE_SHARE = 0.2
 _PUSH_M_S_MAX = 0.3
@@ -133,6 +134,12 @@ class Body:
         return np.array([_reach_m(link, rotation) for link, rotation in zip(self.links, rotations)])
 
 
+def exported(islands: Islands, specimen: Specimen, task: str, terrain: Terrain | None) -> Body:
+    """A champion, written for other engines."""
+    urdf, mjcf = islands.export(specimen, "urdf"), islands.export(specimen, "mjcf")
+    return Body(urdf, mjcf, islands.inspect(urdf)["links"], task, terrain)
+
+
 def _reach_m(link: dict, rotation: np.ndarray) -> np.ndarray:
     half_m = np.array(link["size"]) / 2
     # A row for each of the world's axes, in the link's own.
@@ -163,7 +170,7 @@ def score_m(body: Body, engine: str, differs: Perturbation) -> float:
     period_s, motors = motors_of(body.urdf)
     motors = [dataclasses.replace(motor, torque_nm_max=motor.torque_nm_max * differs.torque) for motor in motors]
     player = _player(engine, body, trial, motors, differs)
-    walk = _measured(player, body, trial, period_s, differs)
+    walk = _walked(player, body, trial, period_s, differs)
     return 0.0 if walk is None else task.score(walk)
 
 
@@ -197,10 +204,9 @@ def _root(body: Body, differs: Perturbation) -> np.ndarray:
     return np.array([*at_m, *turns[0]])
 
 
-def _measured(player: Player, body: Body, trial: Trial, period_s: float, differs: Perturbation) -> Walk | None:
+def _walked(player: Player, body: Body, trial: Trial, period_s: float, differs: Perturbation) -> Walk | None:
     _settle(player, trial)
-    masses_kg = body.masses_kg()
-    sample_steps = round(_TRACK_SAMPLE_S * trial.steps_per_s)
+    sample_steps = round(TRACK_SAMPLE_S * trial.steps_per_s)
     steps = round(trial.scored_s * trial.steps_per_s)
     is_pushed = not TASKS[body.task].is_dropped and any(differs.push_m_s)
     push_step = round(differs.push_share * steps / sample_steps) * sample_steps
@@ -214,13 +220,19 @@ def _measured(player: Player, body: Body, trial: Trial, period_s: float, differs
         if step == push_step and is_pushed:
             player.push(np.array(differs.push_m_s))
     filmed = np.array(poses)
-    centres_m = np.einsum("tlx,l->tx", filmed[:, :, :3], masses_kg) / masses_kg.sum()
     if not (player.is_sound() and np.isfinite(filmed).all()):
         return None
+    return measured(body, filmed, root_first_m)
+
+
+def measured(body: Body, poses: np.ndarray, root_first_m: np.ndarray) -> Walk | None:
+    """What its poses, a tenth of a second apart, say of a body; nothing if it has left its terrain."""
+    masses_kg = body.masses_kg()
+    centres_m = np.einsum("tlx,l->tx", poses[:, :, :3], masses_kg) / masses_kg.sum()
     if body.terrain is not None and not all(map(body.terrain.holds, centres_m)):
         return None
-    heights_m = np.array([_height_m(body, at, centre_m) for at, centre_m in zip(filmed, centres_m)])
-    return Walk(root_first_m, filmed[-1, 0, :3], centres_m[:, :2], heights_m, body.extent_m())
+    heights_m = np.array([_height_m(body, at, centre_m) for at, centre_m in zip(poses, centres_m)])
+    return Walk(root_first_m, poses[-1, 0, :3], centres_m[:, :2], heights_m, body.extent_m())
 
 
 def _height_m(body: Body, poses: np.ndarray, centre_m: np.ndarray) -> float:

@@ -103,9 +103,14 @@ def _arguments() -> argparse.Namespace:
 def _seeds(text: str) -> list[int]:
     """Numbers and ranges, such as 1-5,9."""
     seeds: list[int] = []
-    for part in text.split(","):
-        first, _, last = part.partition("-")
-        seeds += range(int(first), int(last or first) + 1)
+    try:
+        for part in text.split(","):
+            first, _, last = part.partition("-")
+            seeds += range(int(first), int(last or first) + 1)
+    except ValueError:
+        seeds = []
+    if not seeds:
+        raise argparse.ArgumentTypeError(f"'{text}' names no seeds: say 1-20 or 3,5,8")
     return seeds
 
 

@@ -3,6 +3,7 @@
 import csv
 import multiprocessing
 import statistics
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -49,7 +50,8 @@ def judge(islands: Islands, found: Sequence[Claim], count: int, jobs: int) -> li
     if any(claim.is_on_mountain for claim in found):
         claims.require_the_same_mountain(islands, next(claim for claim in found if claim.is_on_mountain))
     bodies = [_body(islands, claim, index) for index, claim in enumerate(found)]
-    indices = range(count) if count else [None]
+    indices: Sequence[int | None] = range(count) if count else [None]
+    print(f"Trying {len(bodies)} champions, {max(1, count)} times in each engine", file=sys.stderr)
     plays = [(body, engine, index) for engine in reversed(ENGINES) for body in bodies for index in indices]
     # Engines have a state of their own, so every process is a fresh one.
     with multiprocessing.get_context("spawn").Pool(jobs) as pool:
@@ -61,10 +63,8 @@ def judge(islands: Islands, found: Sequence[Claim], count: int, jobs: int) -> li
 def _body(islands: Islands, claim: Claim, index: int) -> Body:
     folder = islands.folder / str(index)
     folder.mkdir()
-    here = Islands(islands.program, folder)
     specimen = Specimen(claim.genome, claim.options)
-    urdf, mjcf = here.export(specimen, "urdf"), here.export(specimen, "mjcf")
-    return Body(urdf, mjcf, here.inspect(urdf)["links"], claim.task, claim.terrain)
+    return trials.exported(Islands(islands.program, folder), specimen, claim.task, claim.terrain)
 
 
 def _play(body: Body, engine: str, index: int | None) -> float:
@@ -105,18 +105,19 @@ def write(folder: Path, found: Sequence[Verdict], shown: Sequence[Table]) -> Non
     """Writes truth.md, the tables, and truth.csv, with all trials."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "truth.md").write_text("\n".join(table.markdown() for table in shown))
-    names = [_column(engine) for engine in ENGINES]
+    lines = [_line(verdict) for verdict in found]
     with (folder / "truth.csv").open("w", newline="") as file:
-        out = csv.writer(file)
-        out.writerow(["champion", "task", "engine", "claim_m", *(f"{name}_m" for name in names), "median_m", "ratio",
-                      "seconds", *(f"{name}_trials_m" for name in names)])  # fmt: skip
-        for verdict in found:
-            claim = verdict.claim
-            means = [verdict.mean_m(engine) for engine in ENGINES]
-            each = [" ".join(f"{score:.4f}" for score in verdict.trials_m[engine]) for engine in ENGINES]
-            out.writerow([claim.name, claim.task, claim.engine, claim.claim_m, *means, verdict.median_m, verdict.ratio,
-                          "" if claim.seconds is None else claim.seconds, *each])  # fmt: skip
+        out = csv.DictWriter(file, lines[0])
+        out.writeheader()
+        out.writerows(lines)
 
 
-def _column(engine: str) -> str:
-    return engine.lower().replace(",", "").replace(" ", "_")
+def _line(verdict: Verdict) -> dict[str, str | float | None]:
+    """A line of truth.csv, by the names of its columns."""
+    claim = verdict.claim
+    names = {engine: engine.lower().replace(",", "").replace(" ", "_") for engine in ENGINES}
+    said = {"champion": claim.name, "task": claim.task, "engine": claim.engine, "claim_m": claim.claim_m}
+    means = {f"{name}_m": verdict.mean_m(engine) for engine, name in names.items()}
+    comes_to = {"median_m": verdict.median_m, "ratio": verdict.ratio, "seconds": claim.seconds}
+    each = {f"{name}_trials_m": " ".join(map(str, verdict.trials_m[engine])) for engine, name in names.items()}
+    return said | means | comes_to | each

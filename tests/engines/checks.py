@@ -9,6 +9,8 @@ import numpy as np
 import claims
 import hand
 import ros
+import terrain
+import trials
 import verdicts
 from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
 from program import Islands, Specimen
@@ -19,6 +21,8 @@ SAME = 1e-5
 # Of motion that is not chaotic.
 ALIKE = 0.02
 FRAMES_PER_S = 60
+# Of scores of the same film, whose numbers have single precision, in metres.
+SAME_SCORE_M = 1e-4
 # Of what a run claims of its champion: the median of three engines, of any and of the one in the middle.
 HOLDS_MIN = 0.75
 HOLDS_MEDIAN = 0.9
@@ -147,6 +151,23 @@ def _slides_m(islands: Islands, urdf: Path) -> dict[str, float]:
         poses = play(player, resting, 1.0)
         found[engine] = float(poses[-1, 0, 0] - poses[0, 0, 0])
     return found
+
+
+def same_scores(islands: Islands, specimens: list[Specimen]) -> list[str]:
+    """Scores what islands films by the rules that other engines are scored by; returns whose score is another one."""
+    failures = []
+    settled, every = round(WALK.settle_s * FRAMES_PER_S), round(trials.TRACK_SAMPLE_S * FRAMES_PER_S)
+    for task, ground in (("walk", None), ("travel", None), ("climb", terrain.mountain())):
+        said = islands.evaluate([specimen.file for specimen in specimens], "--task", task)
+        for specimen, score_m in zip(specimens, said):
+            filmed = islands.motion(specimen, task)[settled::every]
+            body = trials.exported(islands, specimen, task, ground)
+            walk = trials.measured(body, filmed, filmed[0, 0, :3])
+            found_m = None if walk is None else trials.TASKS[task].score(walk)
+            if found_m is None or score_m is None or not abs(found_m - score_m) <= SAME_SCORE_M:
+                failures.append(f"{task}: {specimen.file.name} is worth {score_m} in islands and {found_m} by our rules")
+    print(f"scores: {len(specimens)} walkers by three tasks' rules, {len(failures)} differences")
+    return failures
 
 
 def claims_hold(islands: Islands, folder: Path, jobs: int) -> list[str]:
