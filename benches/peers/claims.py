@@ -47,7 +47,8 @@ def claimed_m(summary: dict) -> float:
     found = [summary[name] for name in _CLAIMS if summary.get(name) is not None]
     if not found:
         raise NoClaim(f"summary.json has none of {', '.join(_CLAIMS)}")
-    return float(found[0])
+    # The most negative number there is says that nothing could be scored.
+    return max(0.0, float(found[0]))
 
 
 def of_run(folder: Path, seconds: float | None = None) -> Claim:
@@ -82,17 +83,22 @@ def _ground(task: str, file: Path | None) -> tuple[Terrain | None, bool]:
 
 def of_new_runs(islands: Islands, seeds: Iterable[int], flags: str, folder: Path) -> list[Claim]:
     """Makes runs one after another, each in a folder of its own; those that are there already are not made again."""
-    claims = []
-    for seed in seeds:
-        out = folder / f"seed{seed}"
-        seconds = None
-        if not (out / "summary.json").exists():
-            print(f"Evolving seed {seed} in {out}", file=sys.stderr)
-            begun = time.monotonic()
-            islands.evolve("--seed", str(seed), "--out", out, *shlex.split(flags))
-            seconds = time.monotonic() - begun
-        claims.append(of_run(out, seconds))
-    return claims
+    folder.mkdir(parents=True, exist_ok=True)
+    said = folder / "flags.txt"
+    if said.exists() and said.read_text() != flags:
+        raise NoClaim(f"the runs in {folder} were made with --flags '{said.read_text()}': choose another --out")
+    said.write_text(flags)
+    return [_new_run(islands, seed, flags, folder / f"seed{seed}") for seed in seeds]
+
+
+def _new_run(islands: Islands, seed: int, flags: str, out: Path) -> Claim:
+    took = out.with_suffix(".seconds")
+    if not took.exists():
+        print(f"Evolving seed {seed} in {out}", file=sys.stderr)
+        begun = time.monotonic()
+        islands.evolve("--seed", str(seed), "--out", out, *shlex.split(flags))
+        took.write_text(f"{time.monotonic() - begun:.1f}\n")
+    return of_run(out, float(took.read_text()))
 
 
 def of_fixtures(islands: Islands, folder: Path, flags: str) -> list[Claim]:

@@ -15,7 +15,9 @@ from pathlib import Path
 import numpy as np
 
 import progress
-from players import GRIP, DrivenInMuJoCo, InPyBullet, Motor, Player, Trial, motors_of, moving
+from in_mujoco import DrivenInMuJoCo
+from in_pybullet import InPyBullet
+from players import GRIP, Motor, Player, Trial, motors_of, moving
 from program import Islands, Specimen
 from terrain import ROUGHNESS, Terrain
 
@@ -71,7 +73,7 @@ TASKS = {
     "walk": Task(9.81, 0.5, 8.0, 0.1, False, lambda walk: progress.away_m(walk.track_m)),
     "travel": Task(9.81, 0.5, 8.0, 0.1, False, lambda walk: progress.travelled_m(walk.track_m, walk.extent_m)),
     "climb": Task(9.81, 0.5, 8.0, 0.1, False, lambda walk: progress.climbed_m(walk.heights_m)),
-    "course": Task(10.0, 0.0, 10.0, 2.5, True, lambda walk: float(np.linalg.norm(walk.root_last_m - walk.root_first_m))),
+    "course": Task(10.0, 0.0, 10.0, 2.5, True, lambda walk: math.dist(walk.root_last_m, walk.root_first_m)),
 }
 
 

@@ -3,7 +3,7 @@
 
     cargo build --release
     python3 benches/peers/truth.py runs/walk-seed7 runs/walk-seed8     runs that have finished
-    python3 benches/peers/truth.py --seeds 1-20 --flags "--n 4" --out truth    makes twenty runs first, and keeps them
+    python3 benches/peers/truth.py --seeds 1-20 --flags "--n 4" --out truth    makes twenty runs first, keeps them
     python3 benches/peers/truth.py --fixtures tests/fixtures/mean-walkers     files of champions
 
 Needs Python 3.11 or newer, Linux, and the network when run for the first time: PyBullet and MuJoCo are installed in a
@@ -13,21 +13,21 @@ Claim     What summary.json says that the champion is worth: `validated`, else `
           --fixtures what stands in the folder's claims.csv (`file,claim_m`), else what `islands evaluate` says.
 Engines   The champion is exported, and tried in PyBullet, in MuJoCo, and in MuJoCo with 1,920 steps a second, as
           islands tries it: it begins leaning by 5°, settles until it is at rest, and is scored by the task's rule.
-Trials    Each figure is the mean of --trials perturbed trials (0: one trial as it is). In each the friction (±25 %), the
-          strength of the motors (±20 %), the side of the lean, a push of up to 0.3 m/s and the steps a second (200 to
-          300, but 1,920 in the third column) are other ones, as with --robustness. They are drawn from a seed of
-          their own: no champion was selected by them. All champions and engines face the same ones.
+Trials    Each figure is the mean of --trials perturbed trials (0: one trial as it is). They differ in friction (±25 %),
+          the strength of the motors (±20 %), the side of the lean, a push of up to 0.3 m/s and the steps a second (200
+          to 300, but always 1,920 in the third column), as with --robustness. They are drawn from a seed of their own:
+          no champion was selected by them. All champions and engines face the same ones.
 Ratio     The median of the three figures, as a share of the claim. Near 1 the claim is true; far below it the score was
           luck, or a fault of the engine that gave it.
 
 A trial in which an engine's numbers break down, or the body leaves its terrain, counts as 0 m.
 
-Settings  PyBullet: its defaults, the exported inertias, no damping, motors by VELOCITY_CONTROL with the exported torque,
+Settings  PyBullet: its defaults, the exported inertias, no damping, motors by VELOCITY_CONTROL of the exported torque,
           friction 0.5 × 0.5. MuJoCo: the exported model (implicitfast, elliptic cones, Newton, default contacts: a box
-          on a slope of half of what friction holds creeps by 0.3 mm/s) without its servos. Those need an error of the
-          speed to give torque, so that motors are weaker than here and in PyBullet; instead each motor is a constraint
+          on a slope half as steep as friction holds creeps by 0.3 mm/s) without its servos. Those give torque only for an
+          error of the speed, so that motors are weaker than in islands and PyBullet; instead each motor is a constraint
           of bounded torque, as a joint's dry friction is, that aims at the motor's speed. No link touches another.
-Terrains  Of --task climb and --terrain both engines get the grid of heights with the same triangles, walls and friction.
+Terrains  Of --task climb and --terrain both engines get the grid of heights with the same triangles, walls, friction.
           The course's mountain is built here by its formula; that it is the program's own is checked by the program,
           which must give a champion the same score on both. Climbing is less certain than walking: neither engine
           smooths the edges between triangles, which islands' engines do.

@@ -12,7 +12,9 @@ import ros
 import terrain
 import trials
 import verdicts
-from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
+from in_mujoco import InMuJoCo
+from in_pybullet import InPyBullet
+from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, Trial, motors_of, play
 from program import Islands, Specimen
 
 ENGINES = ("islands", "PyBullet", "MuJoCo")
@@ -165,13 +167,13 @@ def same_scores(islands: Islands, specimens: list[Specimen]) -> list[str]:
             walk = trials.measured(body, filmed, filmed[0, 0, :3])
             found_m = None if walk is None else trials.TASKS[task].score(walk)
             if found_m is None or score_m is None or not abs(found_m - score_m) <= SAME_SCORE_M:
-                failures.append(f"{task}: {specimen.file.name} is worth {score_m} in islands and {found_m} by our rules")
+                failures.append(f"{task}: {specimen.file.name} is worth {score_m} in islands, {found_m} by our rules")
     print(f"scores: {len(specimens)} walkers by three tasks' rules, {len(failures)} differences")
     return failures
 
 
 def claims_hold(islands: Islands, folder: Path, jobs: int) -> list[str]:
-    """Tries champions of runs as users make them; returns whose claims, which claims.csv says, do not hold elsewhere."""
+    """Tries champions of runs as users make them; returns whose claims, which stand in claims.csv, fail elsewhere."""
     if not (folder / "claims.csv").exists():
         return [f"claims: there is no {folder / 'claims.csv'}, so that nothing is known of what runs claim"]
     try:
