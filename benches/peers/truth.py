@@ -24,9 +24,10 @@ A trial in which an engine's numbers break down, or the body leaves its terrain,
 
 Settings  PyBullet: its defaults, the exported inertias, no damping, motors by VELOCITY_CONTROL of the exported torque,
           friction 0.5 × 0.5. MuJoCo: the exported model (implicitfast, elliptic cones, Newton, default contacts: a box
-          on a slope half as steep as friction holds creeps by 0.3 mm/s) without its servos. Those give torque only for an
-          error of the speed, so that motors are weaker than in islands and PyBullet; instead each motor is a constraint
-          of bounded torque, as a joint's dry friction is, that aims at the motor's speed. No link touches another.
+          on a slope half as steep as friction holds creeps by 0.3 mm/s) without its servos. Those give torque only for
+          an error of the speed, so that motors are weaker than in islands and PyBullet; instead each motor is a
+          constraint of bounded torque, as a joint's dry friction is, that aims at the motor's speed. No link touches
+          another.
 Terrains  Of --task climb and --terrain both engines get the grid of heights with the same triangles, walls, friction.
           The course's mountain is built here by its formula; that it is the program's own is checked by the program,
           which must give a champion the same score on both. Climbing is less certain than walking: neither engine
