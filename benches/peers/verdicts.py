@@ -5,6 +5,7 @@ import multiprocessing
 import statistics
 import sys
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,8 +55,8 @@ def judge(islands: Islands, found: Sequence[Claim], count: int, jobs: int) -> li
     print(f"Trying {len(bodies)} champions, {max(1, count)} times in each engine", file=sys.stderr)
     plays = [(body, engine, index) for engine in reversed(ENGINES) for body in bodies for index in indices]
     # Engines have a state of their own, so every process is a fresh one.
-    with multiprocessing.get_context("spawn").Pool(jobs) as pool:
-        scores = iter(pool.starmap(_play, plays, chunksize=1))
+    with ProcessPoolExecutor(jobs, multiprocessing.get_context("spawn")) as pool:
+        scores = iter(list(pool.map(_play, *zip(*plays))))
     scored = {engine: [[next(scores) for _ in indices] for _ in bodies] for engine in reversed(ENGINES)}
     return [Verdict(claim, {engine: scored[engine][i] for engine in ENGINES}) for i, claim in enumerate(found)]
 
