@@ -6,10 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+import claims
 import hand
 import ros
-from exports import Islands, Specimen
-from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, InMuJoCo, InPyBullet, Trial, motors_of, play
+import terrain
+import trials
+import verdicts
+from in_mujoco import InMuJoCo
+from in_pybullet import InPyBullet
+from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, Trial, motors_of, play
+from program import Islands, Specimen
 
 ENGINES = ("islands", "PyBullet", "MuJoCo")
 # Of masses, inertias and poses, relative to the size of the body.
@@ -17,6 +23,13 @@ SAME = 1e-5
 # Of motion that is not chaotic.
 ALIKE = 0.02
 FRAMES_PER_S = 60
+# Of scores of the same film, whose numbers have single precision, in metres.
+SAME_SCORE_M = 1e-4
+# Of what a run claims of its champion: the median of three engines, of any and of the one in the middle.
+HOLDS_MIN = 0.75
+HOLDS_MEDIAN = 0.9
+# Perturbed trials of each in each engine.
+TRIALS = 8
 
 
 def same_bodies(islands: Islands, specimens: list[Specimen]) -> list[str]:
@@ -130,15 +143,53 @@ def _slides_m(islands: Islands, urdf: Path) -> dict[str, float]:
     specimen = Specimen(urdf)
     found = {}
     resting = Trial(COURSE.gravity_m_s2, 0.0, 3.0)
+    push_m_s = np.array([hand.PUSH_M_S, 0.0, 0.0])
     root = UPRIGHT + [0, 0, hand.BOX_HALF_M, 0, 0, 0, 0]
     bullet = InPyBullet(islands.export(specimen, "urdf"), resting, [], root)
-    bullet.push(hand.PUSH_M_S)
+    bullet.push(push_m_s)
     mujoco = InMuJoCo(islands.export(specimen, "mjcf"), resting, [], root)
-    mujoco.push(hand.PUSH_M_S)
+    mujoco.push(push_m_s)
     for engine, player in (("PyBullet", bullet), ("MuJoCo", mujoco)):
         poses = play(player, resting, 1.0)
         found[engine] = float(poses[-1, 0, 0] - poses[0, 0, 0])
     return found
+
+
+def same_scores(islands: Islands, specimens: list[Specimen]) -> list[str]:
+    """Scores what islands films by the rules that other engines are scored by; returns whose score is another one."""
+    failures = []
+    settled, every = round(WALK.settle_s * FRAMES_PER_S), round(trials.TRACK_SAMPLE_S * FRAMES_PER_S)
+    for task, ground in (("walk", None), ("travel", None), ("climb", terrain.mountain())):
+        said = islands.evaluate([specimen.file for specimen in specimens], "--task", task)
+        for specimen, score_m in zip(specimens, said):
+            filmed = islands.motion(specimen, task)[settled::every]
+            body = trials.exported(islands, specimen, task, ground)
+            walk = trials.measured(body, filmed, filmed[0, 0, :3])
+            found_m = None if walk is None else trials.TASKS[task].score(walk)
+            if found_m is None or score_m is None or not abs(found_m - score_m) <= SAME_SCORE_M:
+                failures.append(f"{task}: {specimen.file.name} is worth {score_m} in islands, {found_m} by our rules")
+    print(f"scores: {len(specimens)} walkers by three tasks' rules, {len(failures)} differences")
+    return failures
+
+
+def claims_hold(islands: Islands, folder: Path, jobs: int) -> list[str]:
+    """Tries champions of runs as users make them; returns whose claims, which stand in claims.csv, fail elsewhere."""
+    if not (folder / "claims.csv").exists():
+        return [f"claims: there is no {folder / 'claims.csv'}, so that nothing is known of what runs claim"]
+    try:
+        judged = verdicts.judge(islands, claims.of_fixtures(islands, folder, ""), TRIALS, jobs)
+    except claims.NoClaim as error:
+        return [f"claims: {error}"]
+    print("\n".join(table.text() for table in verdicts.tables(judged, TRIALS)))
+    failures = [
+        f"claims: of {verdict.claim.name}'s {verdict.claim.claim_m:.2f} m other engines leave {verdict.ratio:.2f}"
+        for verdict in judged
+        if not verdict.ratio >= HOLDS_MIN
+    ]
+    median = float(np.median([verdict.ratio for verdict in judged]))
+    if not median >= HOLDS_MEDIAN:
+        failures.append(f"claims: in the median other engines leave {median:.2f} of them")
+    return failures
 
 
 def report_walkers(islands: Islands, kind: str, specimens: list[Specimen]) -> None:

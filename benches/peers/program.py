@@ -1,15 +1,12 @@
-"""What islands exports, and what it says of it."""
+"""The program itself: what it exports, what it says of bodies, and what it scores."""
 
 import json
-import random
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-PROFILES = ("native", "lecture", "coursework")
-PARAMETERS = 17
 
 
 @dataclass(frozen=True)
@@ -38,6 +35,11 @@ class Islands:
         """What islands itself says of a body."""
         return json.loads(self._run("inspect", body, "--json"))
 
+    def evaluate(self, files: Sequence[Path], *options: str) -> list[float | None]:
+        """The scores of genomes that are read and tried alike; none for those that are refused."""
+        genomes = json.loads(self._run("evaluate", *files, *options, "--json").splitlines()[-1])["genomes"]
+        return [genome["fitness"] if genome["outcome"] == "scored" else None for genome in genomes]
+
     def motion(self, specimen: Specimen, task: str) -> np.ndarray:
         """How it moves in islands: the poses of all links, 60 times a second."""
         table = np.loadtxt(self.export(specimen, "motion", "--task", task), delimiter=",", skiprows=1, ndmin=2)
@@ -49,36 +51,12 @@ class Islands:
         command = [self.program, "inspect", specimen.file, *specimen.options]
         return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
+    def evolve(self, *options: str | Path) -> None:
+        """Makes a run, which is neither watched nor filmed."""
+        self._run("run", *options, "--no-monitor", "--quiet")
+
     def _run(self, *arguments: str | Path) -> str:
         done = subprocess.run([self.program, *arguments], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise RuntimeError(f"islands {' '.join(map(str, arguments))}: {done.stderr.strip()}")
         return done.stdout
-
-
-def random_genomes(islands: Islands, count: int) -> list[Specimen]:
-    """Random genomes of one to six genes, of each profile in turn, that can be built."""
-    chance = random.Random(67)
-    specimens: list[Specimen] = []
-    while len(specimens) < count:
-        number = len(specimens)
-        lines = (
-            ",".join(repr(chance.random()) for _ in range(PARAMETERS)) for _ in range(1 + number // len(PROFILES) % 6)
-        )
-        file = islands.folder / f"random_{number}.csv"
-        file.write_text("\n".join(lines))
-        specimen = Specimen(file, ("--profile", PROFILES[number % len(PROFILES)]))
-        if islands.builds(specimen):
-            specimens.append(specimen)
-    return specimens
-
-
-def genomes_of_the_course(fixtures: Path) -> list[Specimen]:
-    """The course's genomes."""
-    return [Specimen(file, ("--profile", "coursework")) for file in sorted((fixtures / "course").glob("genome_*.csv"))]
-
-
-def walkers(folder: Path) -> list[Specimen]:
-    """Champions that were evolved to walk."""
-    files = sorted(folder.glob("*.csv"), key=lambda file: int(file.stem.split("_")[-1]))
-    return [Specimen(file) for file in files]
