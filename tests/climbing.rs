@@ -69,7 +69,7 @@ fn who_is_in_the_air_is_as_high_as_the_ground_below() {
 #[test]
 fn random_creatures_stay_on_the_mountain_or_are_refused_and_climb_next_to_nothing() {
     for engine in Engine::ALL {
-        let problem = Locomotion { task: Task::Climb, engine, ..Locomotion::DEFAULT };
+        let problem = Locomotion { task: Task::Climb, ..Locomotion::single(engine) };
         let mut refused = 0;
         for genome in random_genomes(&problem, 40) {
             let creature = problem.express(&genome).unwrap();
@@ -90,7 +90,7 @@ fn random_creatures_stay_on_the_mountain_or_are_refused_and_climb_next_to_nothin
 #[test]
 fn perturbed_trials_are_on_the_terrain() {
     for engine in Engine::ALL {
-        let usual = Locomotion { terrain: Some(mountain()), engine, ..Locomotion::DEFAULT };
+        let usual = Locomotion { terrain: Some(mountain()), ..Locomotion::single(engine) };
         let robustness = Robustness { trials: 3, by: RobustBy::Mean };
         let robust = Locomotion { robustness, ..usual };
         for genome in random_genomes(&usual, 4) {
@@ -100,8 +100,9 @@ fn perturbed_trials_are_on_the_terrain() {
                 assert!(measured.iter().all(|it| !it.heights_m.is_empty()), "{engine}");
                 measured.map(|measured| usual.task.score(&measured))
             });
-            let expected =
-                robustness.score(scores).map_or_else(Evaluation::failed, Evaluation::scored);
+            let scores: Result<Vec<f64>, _> = scores.collect();
+            let score = scores.map(|scores| robustness.by.of(&scores));
+            let expected = score.map_or_else(Evaluation::failed, Evaluation::scored);
             assert_eq!(robust.evaluate(&genome), expected, "{engine}");
             assert_eq!(robust.film(&genome).unwrap().0, expected, "{engine}");
         }

@@ -58,8 +58,10 @@ fn each_run_has_the_digest_that_islands_run_prints() {
         ));
         assert_eq!(row["digest"], run["digest"], "{row:?}");
         assert_eq!(row["evaluations"], run["evaluations"].to_string());
-        let confirmed: f64 = row["confirmed"].parse().unwrap();
-        assert_eq!(confirmed.to_bits(), run["best_confirmed"].as_f64().unwrap().to_bits());
+        let validated: f64 = row["validated"].parse().unwrap();
+        assert_eq!(validated.to_bits(), run["validated"].as_f64().unwrap().to_bits());
+        let apart: f64 = row["apart"].parse().unwrap();
+        assert!((0.0..=1.0).contains(&apart), "{row:?}");
         assert_eq!((row["final_generation"].as_str(), row["success"].as_str()), ("3", ""));
     }
     world.assert_left_nothing();

@@ -6,7 +6,7 @@ mod chaos;
 mod cleaning;
 mod cli;
 mod climbing;
-mod confirmation;
+mod validation;
 mod course;
 mod determinism;
 mod experiment;

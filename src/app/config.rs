@@ -74,7 +74,7 @@ pub struct Config {
     pub robustness: u32,
     /// What their scores come to.
     pub robust_by: RobustBy,
-    /// Whether elites, emigrants and champions are judged by the other engine, too.
+    /// Whether champions and emigrants are judged by the other engine, too.
     pub judged: bool,
     /// Genes of a random genome.
     pub genes: usize,

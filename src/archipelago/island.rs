@@ -89,8 +89,9 @@ pub struct Step<G> {
 pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
-    let Brood { population, effort, panicked } = 
-        generation::evaluate(problem, offspring, &[], &Hurdles::NONE);
+    let Brood { mut population, effort, panicked } =
+        generation::evaluate(problem, offspring, &[], &Hurdles::unjudged());
+    generation::judge_best(problem, &mut population);
     let births = Births::of(0, &Memory::default(), &population);
     let memory = Memory::first(&population, &archipelago.strategy);
     let population = match archipelago.strategy.survival {
@@ -129,7 +130,7 @@ pub fn step<P: Problem>(
 
     let population = take_in(problem, population, immigrants, archipelago, moment);
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
-    let hurdles = Hurdles::of(&population, strategy, migration.migrants);
+    let hurdles = Hurdles::of(&population, strategy);
     let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population, &hurdles);
     let births = Births::of(generation, &memory, &brood);
@@ -138,7 +139,7 @@ pub fn step<P: Problem>(
     let next = strategy.survival.survivors(problem, &population, brood, strategy.elites);
     let outbox = migration
         .emigration(generation)
-        .map(|epoch| migration::emigrate(&next, migration, moment, epoch));
+        .map(|epoch| migration::emigrate(problem, &next, migration, moment, epoch));
 
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);

@@ -8,9 +8,10 @@
 use super::policy::{Emigrants, ExchangeMode, Replacement};
 use crate::evolution::generation::Moment;
 use crate::evolution::population::{Population, ranking};
-use crate::evolution::{Individual, Problem};
+use crate::evolution::{Evaluation, Individual, Problem};
 use crate::rng::{Purpose, Stream};
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
 
 /// The most individuals that one outbox can carry.
 pub const MIGRANTS_MAX: usize = 32;
@@ -86,16 +87,26 @@ pub struct Outbox<G> {
     pub migrants: Vec<Individual<G>>,
 }
 
-/// Phase: the outbox of an epoch, copies of some of the population at the end of a generation.
-pub fn emigrate<G: Clone>(
-    population: &[Individual<G>],
+/// Phase: the outbox of an epoch, copies of some of the population at the end of a generation. They travel with whole
+/// scores: an estimate of one island would be a lie on another one.
+pub fn emigrate<P: Problem>(
+    problem: &P,
+    population: &[Individual<P::Gene>],
     migration: &Migration,
     moment: Moment,
     epoch: u32,
-) -> Outbox<G> {
+) -> Outbox<P::Gene> {
     let draw = |slot| stream(moment, slot, Purpose::Emigration);
     let chosen = migration.emigrants.choose(&ranking(population), migration.migrants, draw);
-    let migrants = chosen.into_iter().map(|i| population[i].clone()).collect();
+    let genomes: Vec<&[P::Gene]> =
+        chosen.iter().map(|&index| population[index].genome.as_slice()).collect();
+    let scores = problem.evaluate_batch(&genomes);
+    let whole = |(&index, score): (&usize, &Evaluation)| Individual {
+        fitness: score.fitness,
+        ..population[index].clone()
+    };
+    let mut migrants: Vec<_> = chosen.iter().zip(&scores).map(whole).collect();
+    migrants.sort_by_key(|migrant| Reverse(migrant.fitness));
     Outbox { island: moment.source.island, epoch, migrants }
 }
 

@@ -5,7 +5,7 @@ use super::fitness::{Evaluation, Fitness, Outcome};
 use super::hurdles::Hurdles;
 use super::individual::{Id, Individual};
 use super::memory::Memory;
-use super::population::Population;
+use super::population::{Population, ranking};
 use super::problem::{Gene, Problem};
 use super::strategy::{Reproduction, Strategy};
 use super::survival::{Survival, niching};
@@ -13,7 +13,7 @@ use super::variation::happens;
 use super::variation::sequences::Layout;
 use crate::rng::{Purpose, Source};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Where the draws of one generation come from and what its children are called.
 #[derive(Debug, Clone, Copy)]
@@ -266,6 +266,16 @@ pub fn evaluate<P: Problem>(
         })
         .collect();
     Brood { population, effort, panicked }
+}
+
+/// Phase: gives the best of a population its whole score, and whoever is the best then. A judge only lowers scores, so
+/// that few have to be judged before one of them is the best.
+pub fn judge_best<P: Problem>(problem: &P, population: &mut Population<P::Gene>) {
+    let mut judged = BTreeSet::new();
+    while let Some(&best) = ranking(population).first().filter(|best| !judged.contains(*best)) {
+        population[best].fitness = problem.evaluate(&population[best].genome).fitness;
+        judged.insert(best);
+    }
 }
 
 fn effort(evaluations: &[Evaluation], offspring: usize) -> Effort {

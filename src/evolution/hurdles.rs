@@ -2,7 +2,7 @@
 //!
 //! A score that holds is dear: many trials, and a second engine. Most offspring need none of that to be known as no
 //! better than those who are there. So an evaluation may end early, with an estimate, where the whole score would
-//! change nothing that matters: who lives on as an elite, who travels, who is a champion.
+//! change nothing that matters: who is the best of its island, and so its champion. Who travels gets a whole score then.
 //!
 //! What is above all hurdles has its whole score, which is a pure function of the genome. Hurdles are functions of the
 //! residents, so that an evolution in other processes or on other threads has the same ones.
@@ -17,7 +17,7 @@ use super::survival::Survival;
 pub struct Hurdles {
     /// Who is below this after a first look is not tried further: half of the residents are better.
     pub look: Fitness,
-    /// Who is not above this is not judged: as many residents as live on or travel are better.
+    /// Who is not above this is not judged: a resident is better.
     pub judge: Fitness,
 }
 
@@ -25,26 +25,23 @@ impl Hurdles {
     /// None: everything gets its whole score.
     pub const NONE: Self = Self { look: Fitness::WORST, judge: Fitness::WORST };
 
-    /// Hurdles that nobody gets over, one after the other, and then none: what a genome gets with them are all scores
-    /// that it can have on an island.
-    pub fn each() -> [Self; 3] {
-        let highest = Fitness::new(f64::MAX);
-        [Self { look: highest, judge: highest }, Self { judge: highest, ..Self::NONE }, Self::NONE]
+    /// Nobody is judged.
+    pub fn unjudged() -> Self {
+        Self { judge: Fitness::new(f64::MAX), ..Self::NONE }
     }
 
-    /// Those of the offspring of some residents, of whom at least the best `kept` must have whole scores.
+    /// Those of the offspring of some residents.
     ///
     /// A first look decides only where each generation makes room for the next: elsewhere an estimate could stay.
-    pub fn of<G>(residents: &[Individual<G>], strategy: &Strategy, kept: usize) -> Self {
+    pub fn of<G>(residents: &[Individual<G>], strategy: &Strategy) -> Self {
         let mut fitness: Vec<Fitness> = residents.iter().map(|one| one.fitness).collect();
-        fitness.sort_unstable_by(|a, b| b.cmp(a));
-        let at = |place: usize| fitness.get(place).or(fitness.last()).copied();
-        let (look, kept) = match strategy.survival {
-            Survival::Generational => (at(fitness.len() / 2), strategy.elites.max(kept).max(1)),
-            _ => (None, 1),
+        fitness.sort_unstable();
+        let or_none = |hurdle: Option<&Fitness>| hurdle.copied().unwrap_or(Fitness::WORST);
+        let look = match strategy.survival {
+            Survival::Generational => or_none(fitness.get(fitness.len() / 2)),
+            _ => Fitness::WORST,
         };
-        let or_none = |hurdle: Option<Fitness>| hurdle.unwrap_or(Fitness::WORST);
-        Self { look: or_none(look), judge: or_none(at(kept - 1)) }
+        Self { look, judge: or_none(fitness.last()) }
     }
 }
 
@@ -66,20 +63,17 @@ mod tests {
     }
 
     #[test]
-    fn half_of_the_residents_are_over_the_first_hurdle_and_who_lives_on_or_travels_over_the_second() {
+    fn half_of_the_residents_are_over_the_first_hurdle_and_none_over_the_second() {
         let residents = residents(&[3.0, 9.0, 1.0, 7.0, f64::NAN, 5.0]);
-        let strategy = Strategy { elites: 2, ..Strategy::default() };
-        for (kept, judge) in [(0, 7.0), (3, 5.0), (99, f64::NEG_INFINITY)] {
-            let hurdles = Hurdles::of(&residents, &strategy, kept);
-            assert_eq!((hurdles.look.get(), hurdles.judge.get()), (3.0, judge), "{kept} travel");
-        }
+        let hurdles = Hurdles::of(&residents, &Strategy::default());
+        assert_eq!(hurdles, Hurdles { look: Fitness::new(5.0), judge: Fitness::new(9.0) });
     }
 
     #[test]
     fn where_residents_stay_no_first_look_decides_and_only_a_champion_is_judged() {
         let strategy = Strategy { survival: Survival::Crowding, ..Strategy::default() };
-        let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), &strategy, 2);
+        let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), &strategy);
         assert_eq!(hurdles, Hurdles { look: Fitness::WORST, judge: Fitness::new(9.0) });
-        assert_eq!(Hurdles::of(&residents(&[]), &strategy, 2), Hurdles::NONE);
+        assert_eq!(Hurdles::of(&residents(&[]), &strategy), Hurdles::NONE);
     }
 }

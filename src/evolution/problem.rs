@@ -77,6 +77,14 @@ pub trait Problem: Sync + Sized {
         self.evaluate(genome)
     }
 
+    /// All scores that a genome can have on an island: what it gets where it fails at the first hurdle, where it fails
+    /// at the second, and its whole score.
+    fn possible_scores(&self, genome: &[Self::Gene]) -> [Fitness; 3] {
+        let unjudged = Hurdles::unjudged();
+        let looked_at = Hurdles { look: unjudged.judge, ..unjudged };
+        [looked_at, unjudged, Hurdles::NONE].map(|it| self.estimate(genome, &it).fitness)
+    }
+
     /// What a champion is worth on trials that it was not selected on, where there are such. It decides nothing.
     fn validate(&self, _genome: &[Self::Gene]) -> Option<Fitness> {
         None

@@ -3,9 +3,9 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::progress::Progress;
-use crate::archipelago::Report;
 use crate::evolution::Problem;
 use crate::store::{RunDir, file};
+use crate::transport::Sighting;
 use std::sync::Mutex;
 use tracing::Dispatch;
 use tracing::dispatcher::with_default;
@@ -50,8 +50,8 @@ impl Chronicle {
     }
 
     /// Shows how far an island has got, `seconds` after the start.
-    pub fn update<P: Problem>(&mut self, problem: &P, report: &Report, seconds: f64) {
-        self.progress.update(problem, report, seconds);
+    pub fn update<P: Problem>(&mut self, problem: &P, sighting: &Sighting<P::Gene>, seconds: f64) {
+        self.progress.update(problem, sighting, seconds);
     }
 
     /// Nothing evolves any more.

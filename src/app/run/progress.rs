@@ -3,12 +3,34 @@
 use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use crate::archipelago::Report;
-use crate::evolution::Problem;
-use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use crate::evolution::{Fitness, Problem};
+use crate::transport::Sighting;
+use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
+use std::time::Duration;
 
 /// Plain lines of one island are at least so far apart, in seconds, but for its last one.
 const LINE_EVERY_S: f64 = 5.0;
+
+impl Tally {
+    /// The best, what of it holds on fresh trials, how fast it goes, and how long it will.
+    fn news<P: Problem>(
+        &self,
+        problem: &P,
+        generation: u32,
+        generations: u32,
+        seconds: f64,
+    ) -> String {
+        let best = self.best.map_or_else(String::new, |best| problem.show(best));
+        let holds = self.validated.map(|fresh| format!(" ({} holds)", problem.show(fresh)));
+        let speed = self.evaluations as f64 / seconds.max(1e-3);
+        let done = generation.saturating_sub(self.first.unwrap_or(generation)) + 1;
+        let rate = f64::from(done) / seconds.max(1e-3);
+        let left_s = f64::from(generations.saturating_sub(generation)) / rate;
+        let left = HumanDuration(Duration::from_secs_f64(left_s.min(1e9)));
+        format!("best {best}{}  {speed:.1} evals/s  {left:#} left", holds.unwrap_or_default())
+    }
+}
 
 /// Shows the progress of every island.
 pub struct Progress {
@@ -26,9 +48,13 @@ enum Show {
 /// What is known of an island.
 #[derive(Clone, Default)]
 struct Tally {
+    /// The first generation that was seen: a run that goes on does not begin with 0.
+    first: Option<u32>,
     generation: Option<u32>,
     evaluations: u64,
-    best: Option<crate::evolution::Fitness>,
+    best: Option<Fitness>,
+    /// What its newest champion is worth on fresh trials.
+    validated: Option<Fitness>,
     last_line: Option<Stopwatch>,
 }
 
@@ -66,18 +92,23 @@ impl Progress {
         }
     }
 
-    /// Shows a report, `seconds` after the start.
-    pub fn update<P: Problem>(&mut self, problem: &P, report: &Report, seconds: f64) {
+    /// Shows what an island has told, `seconds` after the start.
+    pub fn update<P: Problem>(
+        &mut self,
+        problem: &P,
+        Sighting { report, champion, .. }: &Sighting<P::Gene>,
+        seconds: f64,
+    ) {
         let Some(tally) = self.tally.get_mut(report.island as usize) else { return };
         // An island that was born again evolves again what it had not saved.
         if tally.generation.is_none_or(|last| report.generation > last) {
             tally.evaluations += report.effort.evaluations;
             tally.generation = Some(report.generation);
+            tally.first = tally.first.or(tally.generation);
         }
         tally.best = tally.best.max(Some(report.statistics.best));
-        let best = tally.best.map_or_else(String::new, |best| problem.show(best));
-        let speed = tally.evaluations as f64 / seconds.max(1e-3);
-        let news = format!("best {best}  {speed:.1} evals/s");
+        tally.validated = champion.as_ref().map_or(tally.validated, |champion| champion.validated);
+        let news = tally.news(problem, report.generation, self.generations, seconds);
         match &self.show {
             Show::Bars(_, bars) => {
                 let bar = &bars[report.island as usize];

@@ -181,7 +181,7 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         for sighting in self.lookout.receive() {
             let report = &sighting.report;
             self.crew.post(Role::Island(report.island)).generation = Some(report.generation);
-            self.chronicle.update(self.problem, report, self.watch.seconds());
+            self.chronicle.update(self.problem, &sighting, self.watch.seconds());
             if let Some(champion) = &sighting.champion {
                 self.podium.receive(self.dir, self.problem, champion)?;
             }

@@ -79,7 +79,7 @@ impl<G: Gene> Records<G> {
         let migrants = self.outboxes.iter().flatten().flat_map(|outbox| {
             let island = outbox.island;
             let generation = outbox.epoch.saturating_add(1).saturating_mul(interval);
-            let claim = move |individual| claim("migrant", Measure::Estimate, island, generation, individual);
+            let claim = move |individual| claim("migrant", Measure::Whole, island, generation, individual);
             outbox.migrants.iter().map(claim)
         });
         match thorough {

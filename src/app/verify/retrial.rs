@@ -4,7 +4,7 @@ use super::super::config::Config;
 use super::super::console::{Stopwatch, say};
 use super::super::subject::Subject;
 use super::check::{Check, counted};
-use crate::evolution::{Fitness, Gene, Hurdles, sharing};
+use crate::evolution::{Fitness, Gene, sharing};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ pub struct Claim<'a, G> {
 pub enum Measure {
     /// The whole score.
     Whole,
-    /// The whole score, or an estimate of who did not get over a hurdle: see [`Hurdles`].
+    /// The whole score, or an estimate of who did not get over a hurdle.
     Estimate,
     /// Trials that nobody was selected on.
     Fresh,
@@ -131,9 +131,7 @@ fn evaluate<'a, P: Subject>(
         let (key, claim) = trials[index];
         let found = match claim.by {
             Measure::Whole => vec![problem.evaluate(claim.genome).fitness],
-            Measure::Estimate => {
-                Hurdles::each().map(|it| problem.estimate(claim.genome, &it).fitness).to_vec()
-            }
+            Measure::Estimate => problem.possible_scores(claim.genome).to_vec(),
             Measure::Fresh => problem.validate(claim.genome).into_iter().collect(),
         };
         meter.tick();
