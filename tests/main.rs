@@ -6,7 +6,6 @@ mod chaos;
 mod cleaning;
 mod cli;
 mod climbing;
-mod validation;
 mod course;
 mod determinism;
 mod experiment;
@@ -34,6 +33,7 @@ mod search;
 mod support;
 mod survival;
 mod tidy;
+mod validation;
 mod verify;
 #[cfg(feature = "view")]
 mod watching;

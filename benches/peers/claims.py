@@ -139,7 +139,7 @@ def _flags(flags: str) -> argparse.Namespace:
     parser = argparse.ArgumentParser(add_help=False, allow_abbrev=False)
     parser.add_argument("--task", default="walk")
     parser.add_argument("--profile", default="native")
-    parser.add_argument("--engine", default="rapier")
+    parser.add_argument("--engine", default="featherstone")
     parser.add_argument("--max-links", default="32")
     parser.add_argument("--scale", action="append", default=[])
     parser.add_argument("--terrain", type=Path)

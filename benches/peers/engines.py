@@ -19,6 +19,7 @@ import pybullet
 import bodies
 from bodies import STEPS, STEPS_PER_UPDATE, Body
 from creatures import Creature
+from program import PLAIN
 
 Positions = np.ndarray
 
@@ -164,7 +165,7 @@ class Islands:
     def evaluate(self, creatures: Sequence[Creature]) -> tuple[float, list[Score]]:
         """The seconds that the program counts for creatures, on one thread, and their scores."""
         options = ["--profile", "coursework", "--task", "course", "--threads", "1", "--json"]
-        options += ["--engine", self.engine]
+        options += ["--engine", self.engine, *PLAIN]
         genomes = [creature.genome for creature in creatures]
         command: list[str | Path] = [self.program, "evaluate", *options, *genomes]
         printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout

@@ -9,6 +9,10 @@ from pathlib import Path
 import numpy as np
 
 
+# One trial of a body as it is, which nobody judges.
+PLAIN = ("--robustness", "0", "--judged=false")
+
+
 @dataclass(frozen=True)
 class Specimen:
     """A genome or a body, and how islands reads it."""
@@ -41,8 +45,9 @@ class Islands:
         return [genome["fitness"] if genome["outcome"] == "scored" else None for genome in genomes]
 
     def motion(self, specimen: Specimen, task: str) -> np.ndarray:
-        """How it moves in islands: the poses of all links, 60 times a second."""
-        table = np.loadtxt(self.export(specimen, "motion", "--task", task), delimiter=",", skiprows=1, ndmin=2)
+        """How it moves in islands in one trial as it is: the poses of all links, 60 times a second."""
+        file = self.export(specimen, "motion", "--task", task, *PLAIN)
+        table = np.loadtxt(file, delimiter=",", skiprows=1, ndmin=2)
         links = int(table[:, 1].max()) + 1
         return table[:, 2:].reshape(-1, links, 7)
 

@@ -103,7 +103,10 @@ impl Visitor for Examiner<'_> {
         };
         let genomes: Vec<Vec<_>> = self.args.genomes.iter().map(read).collect::<Result<_, _>>()?;
         if self.args.trials.is_some() {
-            return Err(Failure::usage(format!("--trials means nothing to {}", self.config.problem)));
+            return Err(Failure::usage(format!(
+                "--trials means nothing to {}",
+                self.config.problem
+            )));
         }
         let evaluate = |batch: &[&Vec<_>]| {
             let batch: Vec<_> = batch.iter().map(|genome| genome.as_slice()).collect();
@@ -151,7 +154,8 @@ fn judge<P: Subject, T: Sync>(
         evaluations_per_second: a_second(evaluations.len() as f64),
         steps_per_second: is_walker.then(|| a_second(steps)),
     };
-    for ((path, evaluation), validation) in args.genomes.iter().zip(&evaluations).zip(&validations) {
+    for ((path, evaluation), validation) in args.genomes.iter().zip(&evaluations).zip(&validations)
+    {
         let Evaluation { fitness, outcome } = *evaluation;
         print(&format!("{:>12}  {outcome:<10}  {}", problem.show(fitness), path.display()));
         for one in validation {

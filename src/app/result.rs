@@ -187,7 +187,11 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, S
 pub fn best<G: Gene>(champions: &[Vec<Champion<G>>]) -> Option<(u32, &Champion<G>)> {
     let islands = (0..).zip(champions);
     let all = islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)));
-    all.reduce(|best, next| if next.1.individual.fitness > best.1.individual.fitness { next } else { best })
+    all.reduce(
+        |best, next| {
+            if next.1.individual.fitness > best.1.individual.fitness { next } else { best }
+        },
+    )
 }
 
 /// The lower of the engines' means, if there are any.

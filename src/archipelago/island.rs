@@ -6,9 +6,7 @@ use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
 use crate::evolution::survival::map_elites;
-use crate::evolution::{
-    Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics, Survival,
-};
+use crate::evolution::{Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics, Survival};
 use crate::rng::Purpose;
 use serde::{Deserialize, Serialize};
 

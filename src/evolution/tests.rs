@@ -1,6 +1,7 @@
 //! What is evaluated, in which order, and what is not.
 
 use super::generation::{Brood, Effort, Offspring, evaluate};
+use super::hurdles::Hurdles;
 use super::{Evaluation, Fitness, Gene, Id, Individual, Outcome, Problem};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
@@ -93,7 +94,8 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
     let brood: [&[u8]; 7] = [&[7], &[1], &[3], &[2], &[3], &[1], &[13]];
     let ledger = Ledger::default();
     let brood = brood.map(child).to_vec();
-    let Brood { population, effort, .. } = evaluate(&ledger, brood, &[elite, immigrant]);
+    let Brood { population, effort, .. } =
+        evaluate(&ledger, brood, &[elite, immigrant], &Hurdles::NONE);
     let fitness: Vec<f64> = population.iter().map(|child| child.fitness.get()).collect();
     assert_eq!(fitness, [7.0, 100.0, 3.0, 200.0, 3.0, 100.0, f64::NEG_INFINITY]);
     let mut evaluated = ledger.0.into_inner().unwrap();
@@ -107,7 +109,7 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
 #[test]
 fn the_genomes_that_made_an_evaluation_panic_are_handed_on_once_each() {
     let brood: [&[u8]; 6] = [&[7], &[2, 66], &[13], &[66], &[2, 66], &[1]];
-    let brood = evaluate(&Ledger::default(), brood.map(child).to_vec(), &[]);
+    let brood = evaluate(&Ledger::default(), brood.map(child).to_vec(), &[], &Hurdles::NONE);
     assert_eq!(brood.panicked, [&[2, 66][..], &[66]].map(genome));
     assert_eq!(brood.effort.outcomes[Outcome::Panicked as usize], 2);
 }

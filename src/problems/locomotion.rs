@@ -1,105 +1,15 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
-use super::progress;
 use super::robustness::{RobustBy, Robustness};
+use super::task::Task;
 use super::validation::Validation;
-use crate::choice;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
 use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem, sharing};
 use crate::rng::Stream;
-use crate::simulation::terrain::mountain;
-use crate::simulation::{
-    self, Engine, Ground, Measurement, Perturbation, Start, Terrain, Trajectory, Trial,
-};
+use crate::simulation::{self, Engine, Terrain, Trajectory, Trial};
 use rand::RngExt;
-use serde::{Deserialize, Serialize};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// What a creature has to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Task {
-    /// To get away: the horizontal displacement of its centre of mass after settling, if it keeps on:
-    /// [`progress::away_m`].
-    #[default]
-    Walk,
-    /// To keep moving: the length of the path of its centre of mass, the lectures' later fitness:
-    /// [`progress::travelled_m`].
-    Travel,
-    /// The course program's set-up and measure: dropped from 2.5 m, distance of the root in space.
-    /// It counts the fall, and is here for comparison.
-    Course,
-    /// To get up the course's mountain, or another terrain: the height that its lowest point gained and kept:
-    /// [`progress::climbed_m`].
-    Climb,
-}
-
-impl Task {
-    /// Every task.
-    pub const ALL: [Task; 4] = [Task::Walk, Task::Travel, Task::Course, Task::Climb];
-
-    /// How bodies are tried.
-    pub fn trial(self) -> Trial {
-        match self {
-            Task::Walk | Task::Travel => Trial {
-                // Of 300 random native bodies (`cargo bench --bench survey -- rates`) 240 Hz changed the scores that
-                // 480 gave no more than 960 did (rank correlation 0.78 both), 120 more (0.72), and at 120 rapier gave
-                // bodies eight times as much momentum out of nothing, half of what the ledger refuses.
-                steps_per_s: 240,
-                perturbation: Perturbation::NONE,
-                gravity_m_s2: 9.81,
-                ground: Ground::Plane,
-                // Low, since a body that falls far bounces, and one that lands on a light root flies off.
-                start: Start::LeaningAt(0.1),
-                settle_s: 0.5,
-                scored_s: 8.0,
-                keeps_ledger: true,
-            },
-            Task::Course => Trial {
-                steps_per_s: 240,
-                perturbation: Perturbation::NONE,
-                gravity_m_s2: 10.0,
-                ground: Ground::Plane,
-                start: Start::RootAt(2.5),
-                settle_s: 0.0,
-                scored_s: 10.0,
-                // The course refuses nobody, and a comparison must not either.
-                keeps_ledger: false,
-            },
-            Task::Climb => Task::Walk.trial().on(mountain()),
-        }
-    }
-
-    /// What a measurement is worth, in metres.
-    pub fn score(self, measured: &Measurement) -> f64 {
-        match self {
-            Task::Walk => progress::away_m(&measured.track_m),
-            Task::Travel => progress::travelled_m(&measured.track_m, measured.extent_m),
-            Task::Climb => progress::climbed_m(&measured.heights_m),
-            Task::Course => (measured.root_last_m - measured.root_first_m).norm(),
-        }
-    }
-}
-
-impl std::fmt::Display for Task {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Task::Walk => "walk",
-            Task::Travel => "travel",
-            Task::Course => "course",
-            Task::Climb => "climb",
-        })
-    }
-}
-
-impl std::str::FromStr for Task {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("task", &Task::ALL, text)
-    }
-}
 
 /// The height of a body from which on bodies count as equally high, in metres.
 pub const HEIGHT_MAX_M: f64 = 3.0;
@@ -196,7 +106,8 @@ impl Locomotion {
 
     /// Evaluates a body in another trial than the task's, or in its perturbations, and films it.
     pub fn film_trial(&self, creature: &Creature, trial: &Trial) -> (Evaluation, Trajectory) {
-        let (_, trajectory) = simulation::film(creature, &self.typical(creature, trial), self.engine);
+        let (_, trajectory) =
+            simulation::film(creature, &self.typical(creature, trial), self.engine);
         (evaluation(self.score(creature, trial, &Hurdles::NONE)), trajectory)
     }
 
@@ -230,12 +141,7 @@ impl Locomotion {
     }
 
     /// The score of a body, as far as it gets over the hurdles. Who fails in one trial has failed.
-    fn score(
-        &self,
-        creature: &Creature,
-        usual: &Trial,
-        hurdles: &Hurdles,
-    ) -> Result<f64, Outcome> {
+    fn score(&self, creature: &Creature, usual: &Trial, hurdles: &Hurdles) -> Result<f64, Outcome> {
         let by = self.robustness.by;
         let mut scores = Vec::new();
         for trial in self.trials(*usual) {
@@ -278,12 +184,7 @@ impl Locomotion {
     }
 
     /// What a body gets in one trial.
-    fn try_out(
-        &self,
-        creature: &Creature,
-        trial: &Trial,
-        engine: Engine,
-    ) -> Result<f64, Outcome> {
+    fn try_out(&self, creature: &Creature, trial: &Trial, engine: Engine) -> Result<f64, Outcome> {
         let measured = simulation::simulate(creature, trial, engine)?;
         Ok(self.task.score(&measured))
     }

@@ -1,8 +1,9 @@
 //! What can be evolved.
 //!
-//! [`locomotion`] evolves creatures that move, [`progress`] says how far one got, [`robustness`] what several
-//! trials come to, and [`validation`] what one is worth on trials that it was not selected on; [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones
-//! and zeros, both of a [`fixed`] length; [`founded`] begins with given genomes.
+//! [`locomotion`] evolves creatures that move: [`task`] says what they have to do, [`progress`] how far one got,
+//! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
+//! on. [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones and zeros,
+//! both of a [`fixed`] length. [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
 //!
@@ -74,12 +75,14 @@ pub mod functions;
 pub mod locomotion;
 pub mod progress;
 pub mod robustness;
+pub mod task;
 pub mod validation;
 
 pub use benchmark::{Benchmark, Real};
 pub use bits::{Bit, Bits, Pattern};
 pub use founded::Founded;
 pub use functions::Function;
-pub use locomotion::{Locomotion, Task};
+pub use locomotion::Locomotion;
 pub use robustness::{RobustBy, Robustness};
+pub use task::Task;
 pub use validation::Validation;

@@ -41,8 +41,11 @@ impl Validation {
     /// The same as people read it.
     pub fn in_words(&self, unit: &str) -> String {
         let Self { engine, trials, failed, mean, sd, worst } = self;
-        let failed = if *failed > 0 { format!(", {failed} of which blew up") } else { String::new() };
-        format!("{mean:.2} ± {sd:.2} {unit} in {engine}, worst {worst:.2} {unit} ({trials} fresh trials{failed})")
+        let failed =
+            if *failed > 0 { format!(", {failed} of which blew up") } else { String::new() };
+        format!(
+            "{mean:.2} ± {sd:.2} {unit} in {engine}, worst {worst:.2} {unit} ({trials} fresh trials{failed})"
+        )
     }
 }
 
@@ -54,8 +57,14 @@ mod tests {
     fn a_trial_that_blew_up_is_worth_nothing() {
         let results = [Ok(2.0), Err(Outcome::TooFast), Ok(4.0)];
         let found = Validation::of(Engine::Rapier, &results);
-        let expected =
-            Validation { engine: Engine::Rapier, trials: 3, failed: 1, mean: 2.0, sd: 2.0, worst: 0.0 };
+        let expected = Validation {
+            engine: Engine::Rapier,
+            trials: 3,
+            failed: 1,
+            mean: 2.0,
+            sd: 2.0,
+            worst: 0.0,
+        };
         assert_eq!(found, expected);
     }
 

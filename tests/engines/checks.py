@@ -15,7 +15,7 @@ import verdicts
 from in_mujoco import InMuJoCo
 from in_pybullet import InPyBullet
 from players import COURSE, STEPS_PER_S, UPRIGHT, WALK, Trial, motors_of, play
-from program import Islands, Specimen
+from program import PLAIN, Islands, Specimen
 
 ENGINES = ("islands", "PyBullet", "MuJoCo")
 # Of masses, inertias and poses, relative to the size of the body.
@@ -160,7 +160,7 @@ def same_scores(islands: Islands, specimens: list[Specimen]) -> list[str]:
     failures = []
     settled, every = round(WALK.settle_s * FRAMES_PER_S), round(trials.TRACK_SAMPLE_S * FRAMES_PER_S)
     for task, ground in (("walk", None), ("travel", None), ("climb", terrain.mountain())):
-        said = islands.evaluate([specimen.file for specimen in specimens], "--task", task)
+        said = islands.evaluate([specimen.file for specimen in specimens], "--task", task, *PLAIN)
         for specimen, score_m in zip(specimens, said):
             filmed = islands.motion(specimen, task)[settled::every]
             body = trials.exported(islands, specimen, task, ground)

@@ -94,9 +94,7 @@ impl Setting {
         let Config { problem, dimensions, instance, rotated, block, .. } = self.config;
         let Config { task, ref terrain, .. } = self.config;
         let terrain = terrain.as_ref().map_or("", |terrain| &terrain.digest);
-        format!(
-            "{problem} {dimensions} {instance} {rotated} {block} {task} {terrain}"
-        )
+        format!("{problem} {dimensions} {instance} {rotated} {block} {task} {terrain}")
     }
 
     /// What it has where settings differ, as text, empty where it has nothing.

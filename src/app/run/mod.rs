@@ -252,7 +252,10 @@ fn luck(summary: &Summary) -> Option<String> {
 
 fn show(summary: &Summary, config: &Config) {
     print(&format!("best     {}, island {}", summary.best, summary.best_island));
-    summary.validation.iter().for_each(|one| print(&format!("holds    {}", one.in_words(&summary.unit))));
+    summary
+        .validation
+        .iter()
+        .for_each(|one| print(&format!("holds    {}", one.in_words(&summary.unit))));
     if let Some(warning) = luck(summary) {
         say(&warning);
     }

@@ -72,14 +72,17 @@ impl<G: Gene> Records<G> {
         });
         let residents = self.states.iter().flat_map(|state| {
             let Island { index: island, generation, .. } = *state;
-            let claim = move |individual| claim("resident", Measure::Estimate, island, generation, individual);
+            let claim = move |individual| {
+                claim("resident", Measure::Estimate, island, generation, individual)
+            };
             state.population.iter().map(claim)
         });
         let interval = terms.config.migration_interval;
         let migrants = self.outboxes.iter().flatten().flat_map(|outbox| {
             let island = outbox.island;
             let generation = outbox.epoch.saturating_add(1).saturating_mul(interval);
-            let claim = move |individual| claim("migrant", Measure::Whole, island, generation, individual);
+            let claim =
+                move |individual| claim("migrant", Measure::Whole, island, generation, individual);
             outbox.migrants.iter().map(claim)
         });
         match thorough {

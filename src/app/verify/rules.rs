@@ -205,7 +205,8 @@ impl<'a> Terms<'a> {
         if champions.iter().any(|champion| champion.validated.is_some() != is_validated) {
             return Err(match is_validated {
                 true => "it has a champion that was not tried on fresh trials".to_owned(),
-                false => "it has a champion that was tried on fresh trials, as none of this run is".to_owned(),
+                false => "it has a champion that was tried on fresh trials, as none of this run is"
+                    .to_owned(),
             });
         }
         for pair in champions.windows(2) {
