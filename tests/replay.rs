@@ -8,16 +8,17 @@ use islands::creature::scales::Rescaling;
 use islands::creature::{Gene, Profile};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
-use islands::problems::{Locomotion, Task};
+use islands::problems::{Locomotion, Robustness, Task};
 use islands::store::{RecordLog, RunDir};
 
-const WALK: Locomotion = Locomotion { genes: 2, ..Locomotion::DEFAULT };
+const WALK: Locomotion =
+    Locomotion { genes: 2, robustness: Robustness::NONE, ..Locomotion::DEFAULT };
 
 #[test]
 fn a_replay_shows_the_simulation_that_got_the_score() {
     let world = World::new();
     let run = world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
-    let ending = world.islands("replay run/champion.csv --out champion.rrd");
+    let ending = world.islands("replay run/champion.csv --robustness 0 --out champion.rrd");
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let score = format!("{:.3} m", run["best_fitness"].as_f64().unwrap());
     assert!(ending.stdout.contains(&score), "{ending:?}");
@@ -36,7 +37,8 @@ fn several_creatures_race_in_one_replay() {
     for i in [1, 2] {
         world.write(&course(i), crate::course::fixture(&course(i)));
     }
-    let problem = Locomotion { profile: Profile::Coursework, task: Task::Course, ..WALK };
+    let problem =
+        Locomotion { profile: Profile::Coursework, task: Task::Course, ..Locomotion::DEFAULT };
     let files = [1, 2].map(course).join(" ");
     let ending =
         world.islands(&format!("replay {files} --profile coursework --task course --out race.rrd"));
@@ -52,7 +54,7 @@ fn several_creatures_race_in_one_replay() {
 #[test]
 fn the_ancestors_of_a_champion_are_bred_again_from_a_random_body_on() {
     let world = World::new();
-    let settings = "--population 6 --generations 8 --genes 2 --migration-interval 1 --migrants 2";
+    let settings = "--population 6 --robustness 0 --generations 8 --genes 2 --migration-interval 1 --migrants 2";
     world.json(&format!("--n 2 --seed 41 --out run --quiet --no-monitor --json {settings}"));
     let ending = world.islands("replay run --ancestry");
     assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
@@ -88,7 +90,7 @@ fn the_champions_of_a_run_are_shown_through_its_generations() {
 fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
     let world = World::new();
     world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
-    let ending = world.islands("replay run/champion.csv --seconds 12");
+    let ending = world.islands("replay run/champion.csv --robustness 0 --seconds 12");
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let recording = Recording::read(&world.path("run/champion.rrd"));
     // Settling comes first; there is a frame for each sixtieth of a second but the last.
@@ -114,7 +116,8 @@ fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
     let world = World::new();
     let founder = |i| crate::course::fixture(&format!("genome_{i}.csv"));
     (0..5).for_each(|i| world.write(&format!("{i}.csv"), founder(i)));
-    let settings = "--population 4 --generations 5 --elites 0 --max-genes 20 --max-links 8";
+    let settings =
+        "--population 4 --robustness 0 --generations 5 --elites 0 --max-genes 20 --max-links 8";
     let seeds =
         "--seed-genomes 0.csv 1.csv 2.csv 3.csv 4.csv --profile coursework --scale link-length=1";
     world.json(&format!("--n 2 --seed 23 --out run --no-monitor --json {settings} {seeds}"));
@@ -150,7 +153,12 @@ fn genomes_in_any_state_and_bodies_race() {
     assert_eq!(ending.code, Some(0), "{ending:?}");
 
     let scales = ["link-length=1".parse::<Rescaling>().unwrap()].into_iter().collect();
-    let problem = Locomotion { profile: Profile::Coursework, scales, task: Task::Course, ..WALK };
+    let problem = Locomotion {
+        profile: Profile::Coursework,
+        scales,
+        task: Task::Course,
+        ..Locomotion::DEFAULT
+    };
     let genes = genome_csv::read(genome.as_bytes()).unwrap().genome;
     let (evaluation, film) = problem.film(&genes).unwrap();
     let recording = Recording::read(&world.path("wide.rrd"));

@@ -1,6 +1,6 @@
 //! Scores of several perturbed trials: what they come to, and that a run, its film and its verifier agree on them.
 
-use crate::support::{TINY, World};
+use crate::support::World;
 use islands::app::config::Config;
 use islands::archipelago::Champion;
 use islands::creature::{
@@ -12,6 +12,8 @@ use islands::rng::{Purpose, Source};
 use islands::simulation::{self, Engine};
 use islands::store::{RecordLog, RunDir};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+
+const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";
 
 fn genome(genes: usize, index: u32) -> Vec<Gene> {
     let problem = Locomotion { genes, ..Locomotion::DEFAULT };
@@ -162,12 +164,12 @@ fn fresh_trials_are_perturbed_otherwise_than_those_that_are_selected_on() {
     let genome = genome(3, 0);
     let problem = robust(16, RobustBy::Mean, Engine::Featherstone);
     let creature = problem.express(&genome).unwrap();
-    let fresh = problem.validate_body(&creature, Engine::Featherstone, 16);
+    let fresh = problem.validate_body(&creature, Engine::Featherstone, 32);
     assert_eq!(problem.validate(&genome), Some(Fitness::new(fresh.mean)));
     assert_ne!(problem.validate(&genome), Some(problem.evaluate(&genome).fitness));
     assert!(fresh.worst < fresh.mean && fresh.sd > 0.0 && fresh.failed == 0, "{fresh:?}");
     let threads = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
-    let shared = threads.install(|| problem.validate_body(&creature, Engine::Featherstone, 16));
+    let shared = threads.install(|| problem.validate_body(&creature, Engine::Featherstone, 32));
     assert_eq!(shared, fresh, "who tries them changes no bit");
 }
 

@@ -1,11 +1,13 @@
 //! What a run claims is what its champion gets on trials that nobody selected it on: recorded, shown, and checked.
 
-use crate::support::{TINY, World};
+use crate::support::World;
 use islands::app::config::Config;
 use islands::archipelago::Champion;
 use islands::creature::Gene;
 use islands::evolution::{Fitness, Problem};
 use islands::store::{RecordLog, RunDir};
+
+const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";
 
 fn evolved(world: &World) -> (serde_json::Value, Vec<Champion<Gene>>) {
     let settings = format!("--n 2 --seed 3 --robustness 3 --no-monitor {TINY}");
@@ -42,7 +44,7 @@ fn every_champion_has_its_whole_score_and_what_of_it_holds() {
 fn evaluate_says_the_same_of_a_champion_as_its_run() {
     let world = World::new();
     let (result, _) = evolved(&world);
-    let found = world.json("evaluate run/champion.csv --robustness 3 --trials 32 --json");
+    let found = world.json("evaluate run/champion.csv --robustness 3 --trials 12 --json");
     assert_eq!(found["genomes"][0]["validation"], result["validation"]);
     assert_eq!(found["genomes"][0]["fitness"], result["best_fitness"]);
     let said = world.islands("evaluate run/champion.csv --trials 4");

@@ -67,7 +67,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
     let read = |path: &PathBuf| Specimen::read(path, &args.trial.read.changes);
     let specimens: Vec<_> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
     let fresh = |specimen: &Specimen, trials| match specimen {
-        Specimen::Genome(genome) => problem.fresh(genome, trials),
+        Specimen::Genome(genome) => problem.fresh(genome, Some(trials)),
         Specimen::Body(body) => problem.validate_in_each(&body.creature, trials),
     };
     judge(args, &config, &problem, &specimens, |batch| try_out(&problem, batch), fresh)

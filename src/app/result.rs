@@ -17,9 +17,6 @@ use std::path::PathBuf;
 /// No summary is longer, in bytes: one has some hundred.
 pub const SUMMARY_BYTES_MAX: usize = 1 << 20;
 
-/// So many fresh trials in each engine say what a run's champion is worth.
-pub const VALIDATION_TRIALS: u32 = 32;
-
 /// The result of a run, as `summary.json` and `--json` say it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
@@ -132,7 +129,7 @@ pub fn summarise<P: Subject>(
     let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
     let (best_island, best) = best;
     let is_walker = config.problem == Kind::Creatures;
-    let validation = problem.fresh(&best.individual.genome, VALIDATION_TRIALS);
+    let validation = problem.fresh(&best.individual.genome, None);
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     Summary {
         digest: Digest::of(islands).to_string(),

@@ -284,6 +284,6 @@ fn a_setting_that_never_scores_has_no_curve_and_no_numbers() {
     assert_eq!(
         csv,
         "setting,seed,final_generation,evaluations,best,validated,apart,success,evaluations_to_target,digest,seconds\n\
-         base,1,0,10,,,,,d1ce,0.250\nbase,1,0,10,1,,,,d1ce,0.250\n"
+         base,1,0,10,,,,,,d1ce,0.250\nbase,1,0,10,1,,,,,d1ce,0.250\n"
     );
 }

@@ -2,7 +2,7 @@
 
 use super::super::catalogue::Visitor;
 use super::super::config::Config;
-use super::super::result::{VALIDATION_TRIALS, lowest_mean};
+use super::super::result::lowest_mean;
 use super::super::subject::Subject;
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
 use crate::evolution::Fitness;
@@ -112,7 +112,7 @@ fn evolve<P: Subject>(
     }
     let champions = islands.iter().map(|island| &island.champion);
     let best = champions.clone().max_by_key(|champion| champion.fitness)?;
-    let validated = lowest_mean(&problem.fresh(&best.genome, VALIDATION_TRIALS));
+    let validated = lowest_mean(&problem.fresh(&best.genome, None));
     let genomes: Vec<&[P::Gene]> = champions.map(|champion| champion.genome.as_slice()).collect();
     let apart = mean_of_pairs(&genomes, |a, b| problem.distance(a, b));
     let apart = (genomes.len() > 1).then_some(apart);

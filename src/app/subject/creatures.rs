@@ -41,9 +41,9 @@ impl Subject for Locomotion {
         Some(file)
     }
 
-    fn fresh(&self, genome: &[Gene], trials: u32) -> Vec<Validation> {
+    fn fresh(&self, genome: &[Gene], trials: Option<u32>) -> Vec<Validation> {
         let Ok(creature) = self.express(genome) else { return Vec::new() };
-        self.validate_in_each(&creature, trials)
+        self.validate_in_each(&creature, trials.unwrap_or(self.fresh_trials()))
     }
 
     fn short(&self, fitness: Fitness) -> String {

@@ -41,8 +41,9 @@ pub trait Subject: Problem + Clone + Send {
         None
     }
 
-    /// What so many trials in each engine come to that nobody was selected on, where there are engines.
-    fn fresh(&self, _genome: &[Self::Gene], _trials: u32) -> Vec<Validation> {
+    /// What so many trials in each engine come to that nobody was selected on, where there are engines; as many as are
+    /// usual if none are said.
+    fn fresh(&self, _genome: &[Self::Gene], _trials: Option<u32>) -> Vec<Validation> {
         Vec::new()
     }
 
