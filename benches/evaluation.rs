@@ -25,7 +25,8 @@ fn main() {
 
 fn evaluation(criterion: &mut Criterion) {
     // This task alone has as many steps for every body.
-    let problem = Locomotion { task: Task::Course, genes: 1, ..Locomotion::default() };
+    let problem =
+        Locomotion { task: Task::Course, genes: 1, ..Locomotion::single(Engine::Featherstone) };
     let mut group = criterion.benchmark_group("evaluation");
     group
         .sample_size(10)

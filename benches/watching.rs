@@ -106,7 +106,7 @@ fn print_sizes(generations: u32, settings: &[&str]) {
         "\na film of {generations} generations of {islands} islands: {few_kb:.0} kB with two clips an island, \
          {many_kb:.0} kB with one each generation: {clip_kb:.1} kB a clip"
     );
-    let tiny = ["--n=4", "--population=4", "--genes=1", "--engine=featherstone"];
+    let tiny = ["--n=4", "--population=4", "--genes=1", "--robustness=0", "--judged=false"];
     let (short, long) = (2 * generations, 20 * generations);
     let [short_kb, long_kb] = [short, long].map(|length| film(length, NEVER, &tiny).0);
     let row_kb = (long_kb - short_kb) / (4.0 * f64::from(long - short));

@@ -30,8 +30,12 @@
 //! # Invariants
 //!
 //! - **Randomness has an address.** No generator state is stored or shared, so no order of execution matters.
-//! - **Evaluation is a pure function of the genome.** An elite, a duplicate and an immigrant are not
-//!   simulated again, and whoever simulates a champion gets its fitness bit for bit.
+//! - **A score is a pure function of the genome.** An elite and a duplicate are not simulated again, and whoever
+//!   simulates a champion gets its fitness bit for bit. Offspring that do not matter may have an estimate instead,
+//!   which is a pure function of the genome and of hurdles that are part of an island's state
+//!   ([`evolution::hurdles`]).
+//! - **What a run claims is not what it selected by**: a champion is tried again on perturbations that nobody was
+//!   selected on, in both engines ([`problems::validation`]).
 //! - **Floors 0 to 3 touch no clock, file or process**, and all transcendental functions on the way to a
 //!   fitness are libm's.
 //! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`] and the worst fitness.

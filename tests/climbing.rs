@@ -118,7 +118,8 @@ fn evolving_gains_height() {
         generations: 10,
         migrants: 0,
         task: Task::Climb,
-        engine: Engine::Featherstone,
+        robustness: 0,
+        judged: false,
         ..Config::default()
     };
     let mut best = Vec::new();
@@ -164,7 +165,7 @@ fn a_run_keeps_the_terrain_that_it_was_on_and_everybody_uses_it() {
     let whole = world.digest("longer", "--config run/run.toml --generations 4");
     assert_eq!(longer["digest"], whole);
 
-    let champion = "run/champion.csv --engine rapier";
+    let champion = "run/champion.csv --robustness 0 --judged=false";
     let score = |more: &str| {
         world.json(&format!("evaluate {champion} --json {more}"))["genomes"][0]["fitness"].clone()
     };

@@ -47,7 +47,7 @@ pub fn in_processes(world: &World, name: &str, settings: &str) -> (String, Vec<R
 #[test]
 fn the_number_of_threads_changes_no_digest_and_no_metric() {
     let world = World::new();
-    let settings = "--n 2 --seed 17 --population 6 --robustness 0 --generations 3 --genes 2 --migration-interval 1";
+    let settings = "--n 2 --seed 17 --population 6 --robustness 3 --generations 3 --genes 2 --migration-interval 1";
     let run = |threads| {
         let name = format!("threads-{threads}");
         in_processes(&world, &name, &format!("{settings} --threads {threads}"))
@@ -61,7 +61,8 @@ fn the_number_of_threads_changes_no_digest_and_no_metric() {
 #[test]
 fn processes_that_exchange_migrants_equal_an_archipelago_in_one_process() {
     let world = World::new();
-    let settings = "--seed 19 --population 4 --robustness 0 --generations 3 --genes 2";
+    let settings =
+        "--seed 19 --population 4 --robustness 0 --judged=false --generations 3 --genes 2";
     for (name, more) in [
         ("three", "--n 3 --migration-interval 1"),
         ("three-at-once", "--n 3 --migration-interval 2 --migration-lag 0"),

@@ -12,7 +12,7 @@ use islands::simulation::{self, Engine, Trajectory, Trial};
 use std::collections::BTreeMap;
 
 fn problem(profile: Profile, task: Task) -> Locomotion {
-    Locomotion { profile, task, genes: 3, ..Locomotion::default() }
+    Locomotion { profile, task, genes: 3, ..Locomotion::single(Engine::Rapier) }
 }
 
 /// Every profile in every task under every engine.

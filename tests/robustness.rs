@@ -266,7 +266,7 @@ fn a_replay_shows_robust_scores_as_the_run_had_them_and_others_if_it_is_told_to(
     assert!(shown("run"));
     assert!(shown("run --ancestry"));
     assert!(shown(&format!("run/champion.csv {wish}")));
-    assert!(!shown("run --robustness 0"));
+    assert!(!shown("run --robustness 0 --judged=false"));
     assert!(!shown("run/champion.csv --robustness 0 --judged=false"));
     let said = world.refusal("replay run/champion.csv --robustness 101");
     assert!(said.contains("robustness must be from 0 to 100"), "{said}");

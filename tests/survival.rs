@@ -6,7 +6,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 /// A run of a second or two in which every generation matters to every island.
-const RUN: &str = "--n 3 --seed 29 --population 5 --robustness 0 --generations 16 --genes 2 --migration-interval 2";
+const RUN: &str = "--n 3 --seed 29 --population 5 --robustness 0 --judged=false --generations 16 --genes 2 --migration-interval 2";
 
 fn start(world: &World, settings: &str) -> Running {
     world.start(&format!("--out run --no-monitor --json {settings}"))
@@ -15,7 +15,8 @@ fn start(world: &World, settings: &str) -> Running {
 #[test]
 fn an_island_that_is_killed_twenty_times_in_fifty_generations_changes_nothing() {
     let world = World::new();
-    let settings = "--n 3 --seed 31 --population 4 --robustness 0 --generations 50 --genes 2";
+    let settings =
+        "--n 3 --seed 31 --population 4 --robustness 0 --judged=false --generations 50 --genes 2";
     let expected = world.digest("undisturbed", settings);
     let dir = RunDir::at(world.path("run"));
     let run = start(&world, settings);

@@ -14,6 +14,7 @@ use islands::creature::{Creature, Gene, Profile};
 use islands::evolution::Problem;
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
+use islands::simulation::Engine;
 
 /// How much is surveyed.
 struct Size {
@@ -69,5 +70,6 @@ fn problem(profile: Profile) -> Locomotion {
         Profile::Native | Profile::Lecture => Task::Walk,
         Profile::Coursework => Task::Course,
     };
-    Locomotion { profile, task, links_max: LINKS_MAX, ..Locomotion::default() }
+    let single = Locomotion::single(Engine::Featherstone);
+    Locomotion { profile, task, links_max: LINKS_MAX, ..single }
 }

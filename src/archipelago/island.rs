@@ -135,14 +135,14 @@ pub fn step<P: Problem>(
     let mut anew = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
     let memory = memory.after::<P>(&population, &brood, strategy, &mut anew);
     let next = strategy.survival.survivors(problem, &population, brood, strategy.elites);
-    let outbox = migration
-        .emigration(generation)
-        .map(|epoch| migration::emigrate(problem, &next, migration, moment, epoch));
-
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
     let better = contender.filter(|contender| contender.fitness > champion.fitness);
     let crowned = better.map(|better| Champion::crown(problem, better, generation));
+    let champion = crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone());
+    let outbox = migration
+        .emigration(generation)
+        .map(|epoch| migration::emigrate(problem, &next, &champion, migration, moment, epoch));
     let report = Report {
         island: index,
         generation,
@@ -150,14 +150,8 @@ pub fn step<P: Problem>(
         effort,
         immigrants: immigrants.iter().map(|outbox| outbox.migrants.len() as u32).sum(),
     };
-    let island = Island {
-        index,
-        generation,
-        population: next,
-        champion: crowned.as_ref().map_or(champion, |crowned| crowned.individual.clone()),
-        effort: spent.and(effort),
-        memory,
-    };
+    let island =
+        Island { index, generation, population: next, champion, effort: spent.and(effort), memory };
     Step { island, outbox, births, report, champion: crowned, panicked }
 }
 

@@ -8,7 +8,7 @@
 use super::policy::{Emigrants, ExchangeMode, Replacement};
 use crate::evolution::generation::Moment;
 use crate::evolution::population::{Population, ranking};
-use crate::evolution::{Evaluation, Individual, Problem};
+use crate::evolution::{Fitness, Individual, Problem};
 use crate::rng::{Purpose, Stream};
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -88,24 +88,28 @@ pub struct Outbox<G> {
 }
 
 /// Phase: the outbox of an epoch, copies of some of the population at the end of a generation. They travel with whole
-/// scores: an estimate of one island would be a lie on another one.
+/// scores, as their island's champion has one: an estimate of one island would be a lie on another one.
 pub fn emigrate<P: Problem>(
     problem: &P,
     population: &[Individual<P::Gene>],
+    champion: &Individual<P::Gene>,
     migration: &Migration,
     moment: Moment,
     epoch: u32,
 ) -> Outbox<P::Gene> {
     let draw = |slot| stream(moment, slot, Purpose::Emigration);
     let chosen = migration.emigrants.choose(&ranking(population), migration.migrants, draw);
+    let is_whole = |index: &usize| population[*index].genome == champion.genome;
+    let (whole, others): (Vec<usize>, Vec<usize>) = chosen.into_iter().partition(is_whole);
     let genomes: Vec<&[P::Gene]> =
-        chosen.iter().map(|&index| population[index].genome.as_slice()).collect();
+        others.iter().map(|&index| population[index].genome.as_slice()).collect();
     let scores = problem.evaluate_batch(&genomes);
-    let whole = |(&index, score): (&usize, &Evaluation)| Individual {
-        fitness: score.fitness,
-        ..population[index].clone()
-    };
-    let mut migrants: Vec<_> = chosen.iter().zip(&scores).map(whole).collect();
+    let scores = scores.into_iter().map(|score| score.fitness);
+    let whole = whole.into_iter().map(|index| (index, champion.fitness));
+    let migrants = whole.chain(others.into_iter().zip(scores));
+    let with =
+        |(index, fitness): (usize, Fitness)| Individual { fitness, ..population[index].clone() };
+    let mut migrants: Vec<_> = migrants.map(with).collect();
     migrants.sort_by_key(|migrant| Reverse(migrant.fitness));
     Outbox { island: moment.source.island, epoch, migrants }
 }

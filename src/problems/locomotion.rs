@@ -65,7 +65,7 @@ impl Locomotion {
     };
 
     /// One trial as it is in an engine, which nobody judges.
-    pub fn single(engine: Engine) -> Self {
+    pub const fn single(engine: Engine) -> Self {
         Self { engine, robustness: Robustness::NONE, judged: false, ..Self::DEFAULT }
     }
 
