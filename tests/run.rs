@@ -81,8 +81,8 @@ fn the_last_lines_say_what_was_evaluated_what_failed_and_what_was_not_evaluated_
     let failed = format!("; {} failed", count("failures"));
     let reused = format!("reused   {} scores, of genomes known already", count("reused"));
     let lines: Vec<&str> = ending.stdout.lines().collect();
-    assert!(lines[1].starts_with(&found) && lines[1].ends_with(&failed), "{ending:?}");
-    assert_eq!(lines[2], reused);
+    assert!(lines[3].starts_with(&found) && lines[3].ends_with(&failed), "{ending:?}");
+    assert_eq!(lines[4], reused);
     let rows = metrics::read(world.read("run/metrics.csv").as_bytes()).unwrap();
     assert_eq!(rows.iter().map(|row| row.reused).sum::<u64>(), count("reused"));
     assert_eq!(rows.iter().map(|row| row.failures).sum::<u64>(), count("failures"));

@@ -50,8 +50,10 @@ fn evaluate_says_the_same_of_a_champion_as_its_run() {
     let said = world.islands("evaluate run/champion.csv --trials 4");
     assert!(said.stdout.contains("in rapier, worst"), "{said:?}");
     assert!(said.stdout.contains("(4 fresh trials)"), "{said:?}");
-    for wrong in ["run/champion.csv --trials 0", "one.csv --problem sphere --trials 3"] {
-        world.write("one.csv", "0.5,0.5\n");
+    for wrong in
+        ["run/champion.csv --trials 0", "one.csv --problem sphere --dimensions 1 --trials 3"]
+    {
+        world.write("one.csv", "0.5\n");
         let said = world.refusal(&format!("evaluate {wrong}"));
         assert!(said.contains("--trials"), "{said}");
     }

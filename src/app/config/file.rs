@@ -120,10 +120,6 @@ impl Config {
             settings.remove("robustness");
             settings.remove("robust-by");
         }
-        // They know no judge either.
-        if !self.judged {
-            settings.remove("judged");
-        }
         settings.insert("version".to_owned(), version.into());
         settings.to_string()
     }

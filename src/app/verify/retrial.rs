@@ -7,7 +7,7 @@ use super::check::{Check, counted};
 use crate::evolution::{Fitness, Gene, sharing};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Display, Formatter};
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -111,7 +111,8 @@ pub fn retry<P: Subject>(claims: &[Claim<P::Gene>], config: &Config, problem: &P
         })
     };
     let mismatches = claims.iter().filter_map(mismatch).collect();
-    Retrial { simulated: found.len(), mismatches }
+    let genomes: BTreeSet<&[u8]> = found.keys().map(|&(_, genome)| genome).collect();
+    Retrial { simulated: genomes.len(), mismatches }
 }
 
 /// Whether an individual of the run can have had this genome.
