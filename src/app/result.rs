@@ -196,15 +196,6 @@ pub fn lowest_mean(validation: &[Validation]) -> Option<f64> {
     validation.iter().map(|one| one.mean).reduce(f64::min)
 }
 
-/// A champion's fitness as people read it, and what of it holds on trials that it was not selected on.
-pub fn show<P: Subject>(problem: &P, champion: &Champion<P::Gene>) -> String {
-    let fitness = problem.show(champion.individual.fitness);
-    match champion.validated {
-        Some(validated) => format!("{fitness} ({} on fresh trials)", problem.show(validated)),
-        None => fitness,
-    }
-}
-
 /// The champions that each island has had so far.
 fn champions<G: Gene>(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Champion<G>>>, StoreError> {
     (0..config.islands).map(|island| Ok(RecordLog::read(&dir.champions(island))?.records)).collect()

@@ -4,7 +4,6 @@ use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::say;
 use super::super::pedigree::{self, Herald};
-use super::super::result;
 use super::super::subject::{Shot, Subject};
 use super::ancestry::Ancestry;
 use super::logs::Sighting;
@@ -192,11 +191,20 @@ impl<P: Subject> Cinema<P> {
 
     fn news(&self, island: u32, champion: &Champion<P::Gene>) -> String {
         let individual = &champion.individual;
-        let score = result::show(&self.problem, champion);
+        let score = self.score(champion);
         let remark = self.problem.remark(&individual.genome);
         let remark = remark.map_or_else(String::new, |remark| format!(", {remark}"));
         let origin = self.herald.origin(individual.id, individual.parents, island);
         format!("island {island}: new champion, {score}{remark}, {origin}")
+    }
+
+    /// A champion's fitness as people read it, and what of it holds on trials that it was not selected on.
+    fn score(&self, champion: &Champion<P::Gene>) -> String {
+        let fitness = self.problem.show(champion.individual.fitness);
+        match champion.validated {
+            Some(validated) => format!("{fitness} ({} on fresh trials)", self.problem.show(validated)),
+            None => fitness,
+        }
     }
 
     /// Simulates an island's newest champion again, if that was not done. It must get the fitness that it was
