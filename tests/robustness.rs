@@ -149,14 +149,35 @@ fn who_fails_at_a_hurdle_has_the_estimate_of_the_trials_until_then() {
     let problem = Locomotion { judged: true, ..robust(5, RobustBy::Mean, Engine::Featherstone) };
     let scores = one_by_one(5, &genome, Engine::Featherstone);
     let scores: Vec<f64> = scores.iter().map(|one| one.fitness.get()).collect();
-    let [look, own] = [2, 5].map(|count| Fitness::new(RobustBy::Mean.of(&scores[..count])));
+    let after = |trials: usize| Fitness::new(RobustBy::Mean.of(&scores[..trials]));
     let above = |fitness: Fitness| Fitness::new(fitness.get() + 1e-9);
-    let estimate = |look, judge| problem.estimate(&genome, &Hurdles { look, judge }).fitness;
-    assert_eq!(estimate(above(look), Fitness::WORST), look);
-    assert_eq!(estimate(look, own), own);
+    let estimate = |hurdles: Hurdles| problem.estimate(&genome, &hurdles).fitness;
+    let looks = [1, 2, 4].map(after);
+    for (index, look) in looks.into_iter().enumerate() {
+        let mut hurdles = Hurdles { looks, ..Hurdles::unjudged() };
+        hurdles.looks[index] = above(look);
+        assert_eq!(estimate(hurdles), look, "look {index}");
+    }
+    let own = after(5);
+    assert_eq!(
+        estimate(Hurdles { looks, judge: own }),
+        own,
+        "who is not above the hurdle is not judged"
+    );
+    let creature = problem.express(&genome).unwrap();
+    let judged = [5, 6].map(|index| {
+        let trial = Task::Walk.trial().perturbed(index);
+        Task::Walk.score(&simulation::simulate(&creature, &trial, Engine::Rapier).unwrap())
+    });
+    let [first, both] =
+        [1, 2].map(|trials| own.min(Fitness::new(RobustBy::Mean.of(&judged[..trials]))));
+    assert!(first < own && both < own && first != both, "another creature shows more");
+    assert_eq!(estimate(Hurdles::judged_above(first)), first, "the judge stops");
+    assert_eq!(estimate(Hurdles { looks, judge: first.just_below() }), both);
     let whole = problem.evaluate(&genome).fitness;
-    assert_eq!(estimate(look, Fitness::WORST), whole);
-    assert_eq!(problem.possible_scores(&genome), [look, own, whole]);
+    assert_eq!(whole, both);
+    let [one, two, four] = looks;
+    assert_eq!(problem.possible_scores(&genome), [one, two, four, own, first, whole]);
 }
 
 #[test]

@@ -12,6 +12,9 @@ impl Fitness {
     /// What a genome gets that could not be scored: below every real score.
     pub const WORST: Fitness = Fitness(f64::NEG_INFINITY);
 
+    /// At least as good as every real score.
+    pub const HIGHEST: Fitness = Fitness(f64::MAX);
+
     /// A score. What is not finite cannot be a score and becomes [`Fitness::WORST`].
     pub fn new(score: f64) -> Self {
         // Adding zero turns -0.0 into 0.0: equal scores must have equal bits.
@@ -21,6 +24,11 @@ impl Fitness {
     /// The score, or negative infinity for [`Fitness::WORST`].
     pub fn get(self) -> f64 {
         self.0
+    }
+
+    /// The next lower one; nothing is lower than [`Fitness::WORST`].
+    pub fn just_below(self) -> Self {
+        Self::new(self.0.next_down())
     }
 
     /// The score, if there is one.

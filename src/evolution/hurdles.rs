@@ -15,33 +15,51 @@ use super::survival::Survival;
 /// What a genome has to get over to be tried further.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hurdles {
-    /// Who is below this after a first look is not tried further: half of the residents are better.
-    pub look: Fitness,
+    /// Who is below these after a first, a second and a third look is not tried further: a quarter, half and three
+    /// quarters of the residents are worse than the hurdles.
+    pub looks: [Fitness; LOOKS],
     /// Who is not above this is not judged: a resident is better.
     pub judge: Fitness,
 }
 
+/// So many looks are taken at a genome before it gets its whole score.
+pub const LOOKS: usize = 3;
+
 impl Hurdles {
     /// None: everything gets its whole score.
-    pub const NONE: Self = Self { look: Fitness::WORST, judge: Fitness::WORST };
+    pub const NONE: Self = Self { looks: [Fitness::WORST; LOOKS], judge: Fitness::WORST };
 
     /// Nobody is judged.
     pub fn unjudged() -> Self {
-        Self { judge: Fitness::new(f64::MAX), ..Self::NONE }
+        Self { judge: Fitness::HIGHEST, ..Self::NONE }
+    }
+
+    /// Everybody fails at a look.
+    pub fn only(look: usize) -> Self {
+        let mut hurdles = Self::NONE;
+        hurdles.looks[look] = Fitness::HIGHEST;
+        hurdles
+    }
+
+    /// Everybody whose trials come to more than this is judged, and tried no further by a judge who finds less.
+    pub fn judged_above(fitness: Fitness) -> Self {
+        Self { judge: fitness, ..Self::NONE }
     }
 
     /// Those of the offspring of some residents.
     ///
-    /// A first look decides only where each generation makes room for the next: elsewhere an estimate could stay.
+    /// Looks decide only where each generation makes room for the next: elsewhere an estimate could stay.
     pub fn of<G>(residents: &[Individual<G>], strategy: &Strategy) -> Self {
         let mut fitness: Vec<Fitness> = residents.iter().map(|one| one.fitness).collect();
         fitness.sort_unstable();
         let or_none = |hurdle: Option<&Fitness>| hurdle.copied().unwrap_or(Fitness::WORST);
-        let look = match strategy.survival {
-            Survival::Generational => or_none(fitness.get(fitness.len() / 2)),
-            _ => Fitness::WORST,
+        let looks = match strategy.survival {
+            Survival::Generational => std::array::from_fn(|look| {
+                or_none(fitness.get(fitness.len() * (look + 1) / (LOOKS + 1)))
+            }),
+            _ => [Fitness::WORST; LOOKS],
         };
-        Self { look, judge: or_none(fitness.last()) }
+        Self { looks, judge: or_none(fitness.last()) }
     }
 }
 
@@ -63,17 +81,18 @@ mod tests {
     }
 
     #[test]
-    fn half_of_the_residents_are_over_the_first_hurdle_and_none_over_the_second() {
-        let residents = residents(&[3.0, 9.0, 1.0, 7.0, f64::NAN, 5.0]);
+    fn quarters_of_the_residents_fail_at_the_looks_and_none_is_above_the_judges_hurdle() {
+        let residents = residents(&[3.0, 9.0, 1.0, 7.0, f64::NAN, 5.0, 4.0, 6.0]);
         let hurdles = Hurdles::of(&residents, &Strategy::default());
-        assert_eq!(hurdles, Hurdles { look: Fitness::new(5.0), judge: Fitness::new(9.0) });
+        let looks = [3.0, 5.0, 7.0].map(Fitness::new);
+        assert_eq!(hurdles, Hurdles { looks, judge: Fitness::new(9.0) });
     }
 
     #[test]
-    fn where_residents_stay_no_first_look_decides_and_only_a_champion_is_judged() {
+    fn where_residents_stay_no_look_decides_and_only_a_champion_is_judged() {
         let strategy = Strategy { survival: Survival::Crowding, ..Strategy::default() };
         let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), &strategy);
-        assert_eq!(hurdles, Hurdles { look: Fitness::WORST, judge: Fitness::new(9.0) });
+        assert_eq!(hurdles, Hurdles::judged_above(Fitness::new(9.0)));
         assert_eq!(Hurdles::of(&residents(&[]), &strategy), Hurdles::NONE);
     }
 }

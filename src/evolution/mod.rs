@@ -27,7 +27,7 @@ pub mod variation;
 mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
-pub use hurdles::Hurdles;
+pub use hurdles::{Hurdles, LOOKS};
 pub use individual::{Id, Individual};
 pub use memory::Memory;
 pub use population::{Population, Spread, Statistics};

@@ -1,7 +1,7 @@
 //! What is to be solved.
 
 use super::fitness::{Evaluation, Fitness};
-use super::hurdles::Hurdles;
+use super::hurdles::{Hurdles, LOOKS};
 use super::sharing;
 use super::variation::sequences::Layout;
 use super::variation::{self, Variation};
@@ -77,12 +77,15 @@ pub trait Problem: Sync + Sized {
         self.evaluate(genome)
     }
 
-    /// All scores that a genome can have on an island: what it gets where it fails at the first hurdle, where it fails
-    /// at the second, and its whole score.
-    fn possible_scores(&self, genome: &[Self::Gene]) -> [Fitness; 3] {
-        let unjudged = Hurdles::unjudged();
-        let looked_at = Hurdles { look: unjudged.judge, ..unjudged };
-        [looked_at, unjudged, Hurdles::NONE].map(|it| self.estimate(genome, &it).fitness)
+    /// All scores that a genome can have on an island: what it gets where it fails at each look, where it is not judged
+    /// or stopped by the judge, and its whole score.
+    fn possible_scores(&self, genome: &[Self::Gene]) -> Vec<Fitness> {
+        let score = |hurdles: Hurdles| self.estimate(genome, &hurdles).fitness;
+        let unjudged = score(Hurdles::unjudged());
+        let mut scores: Vec<Fitness> = (0..LOOKS).map(|look| score(Hurdles::only(look))).collect();
+        scores.extend([unjudged, score(Hurdles::judged_above(unjudged.just_below()))]);
+        scores.push(score(Hurdles::NONE));
+        scores
     }
 
     /// What a champion is worth on trials that it was not selected on, where there are such. It decides nothing.

@@ -5,7 +5,7 @@ use super::task::Task;
 use super::validation::Validation;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
-use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem, sharing};
+use crate::evolution::{self, Evaluation, Fitness, Hurdles, LOOKS, Outcome, Problem, sharing};
 use crate::rng::Stream;
 use crate::simulation::{self, Engine, Terrain, Trajectory, Trial};
 use rand::RngExt;
@@ -14,8 +14,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// The height of a body from which on bodies count as equally high, in metres.
 pub const HEIGHT_MAX_M: f64 = 3.0;
 
-/// So many trials are a first look, after which who is worse than half of the residents is tried no further.
-const LOOK_TRIALS: usize = 2;
+/// So many trials has who was looked at once, twice, three times: who is worse than a quarter, half or three quarters
+/// of the residents then is tried no further.
+const LOOK_TRIALS: [usize; LOOKS] = [1, 2, 4];
 /// So many trials has the judge.
 const JUDGE_TRIALS: u32 = 2;
 /// The first perturbation that nobody is selected on.
@@ -148,27 +149,42 @@ impl Locomotion {
         let by = self.robustness.by;
         let mut scores = Vec::new();
         for trial in self.trials(*usual) {
-            if scores.len() == LOOK_TRIALS && Fitness::new(by.of(&scores)) < hurdles.look {
+            let look = LOOK_TRIALS.iter().position(|&trials| trials == scores.len());
+            if look.is_some_and(|look| Fitness::new(by.of(&scores)) < hurdles.looks[look]) {
                 break;
             }
             scores.push(self.try_out(creature, &trial, self.engine)?);
         }
         let score = by.of(&scores);
         match self.judged && Fitness::new(score) > hurdles.judge {
-            true => Ok(score.min(self.judge(creature, usual)?)),
+            true => self.judge(creature, usual, score, hurdles.judge),
             false => Ok(score),
         }
     }
 
-    /// What the other engine says of a body, in perturbations of its own.
-    fn judge(&self, creature: &Creature, usual: &Trial) -> Result<f64, Outcome> {
+    /// A body's score, or the lower one that the other engine gives it in perturbations of its own, as far as it gets
+    /// over the judge's hurdle.
+    fn judge(
+        &self,
+        creature: &Creature,
+        usual: &Trial,
+        score: f64,
+        hurdle: Fitness,
+    ) -> Result<f64, Outcome> {
         let trials = match self.robustness.trials {
             0 => vec![*usual],
             first => (first..first + JUDGE_TRIALS).map(|index| usual.perturbed(index)).collect(),
         };
-        let score = |trial| self.try_out(creature, &self.unpushed(trial), self.engine.other());
-        let scores: Vec<f64> = trials.into_iter().map(score).collect::<Result<_, _>>()?;
-        Ok(self.robustness.by.of(&scores))
+        let mut judged = score;
+        let mut scores = Vec::new();
+        for trial in trials {
+            scores.push(self.try_out(creature, &self.unpushed(trial), self.engine.other())?);
+            judged = score.min(self.robustness.by.of(&scores));
+            if Fitness::new(judged) <= hurdle {
+                break;
+            }
+        }
+        Ok(judged)
     }
 
     /// That of a body's trials whose score is nearest to what all of them come to, or the first that fails.

@@ -202,7 +202,9 @@ impl<P: Subject> Cinema<P> {
     fn score(&self, champion: &Champion<P::Gene>) -> String {
         let fitness = self.problem.show(champion.individual.fitness);
         match champion.validated {
-            Some(validated) => format!("{fitness} ({} on fresh trials)", self.problem.show(validated)),
+            Some(validated) => {
+                format!("{fitness} ({} on fresh trials)", self.problem.show(validated))
+            }
             None => fitness,
         }
     }

@@ -132,7 +132,7 @@ fn evaluate<'a, P: Subject>(
         let (key, claim) = trials[index];
         let found = match claim.by {
             Measure::Whole => vec![problem.evaluate(claim.genome).fitness],
-            Measure::Estimate => problem.possible_scores(claim.genome).to_vec(),
+            Measure::Estimate => problem.possible_scores(claim.genome),
             Measure::Fresh => problem.validate(claim.genome).into_iter().collect(),
         };
         meter.tick();
