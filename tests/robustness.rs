@@ -121,7 +121,7 @@ fn a_film_has_the_score_of_all_trials_and_shows_the_one_that_is_nearest_to_it() 
 }
 
 #[test]
-fn who_is_judged_is_worth_the_lower_of_both_engines_scores() {
+fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
     let mut lowered = 0;
     for engine in Engine::ALL {
         for index in 0..6 {
@@ -136,48 +136,52 @@ fn who_is_judged_is_worth_the_lower_of_both_engines_scores() {
             });
             let other = Fitness::new((others[0] + others[1]) / 2.0);
             let judged = score(Locomotion { judged: true, ..own });
-            assert_eq!(judged, score(own).min(other), "{engine}");
+            let is_confirmed = other.get() >= 0.85 * score(own).get();
+            let expected = if is_confirmed { score(own) } else { other };
+            assert_eq!(judged, expected, "{engine}");
             lowered += usize::from(judged < score(own));
         }
     }
     assert!((1..12).contains(&lowered), "{lowered}");
 }
 
+/// What the means of a genome's first trials are: of so many in featherstone, then of as many as rapier has had to judge.
+fn means(genome: &[Gene], own: [usize; 4]) -> ([Fitness; 4], [Fitness; 2]) {
+    let mean = |scores: &[f64]| Fitness::new(RobustBy::Mean.of(scores));
+    let scores = one_by_one(5, genome, Engine::Featherstone);
+    let scores: Vec<f64> = scores.iter().map(|one| one.fitness.get()).collect();
+    let creature = Locomotion::DEFAULT.express(genome).unwrap();
+    let judged = [5, 6].map(|index| {
+        let trial = Task::Walk.trial().perturbed(index);
+        Task::Walk.score(&simulation::simulate(&creature, &trial, Engine::Rapier).unwrap())
+    });
+    (own.map(|trials| mean(&scores[..trials])), [1, 2].map(|trials| mean(&judged[..trials])))
+}
+
 #[test]
 fn who_fails_at_a_hurdle_has_the_estimate_of_the_trials_until_then() {
-    let genome = genome(3, 1);
     let problem = Locomotion { judged: true, ..robust(5, RobustBy::Mean, Engine::Featherstone) };
-    let scores = one_by_one(5, &genome, Engine::Featherstone);
-    let scores: Vec<f64> = scores.iter().map(|one| one.fitness.get()).collect();
-    let after = |trials: usize| Fitness::new(RobustBy::Mean.of(&scores[..trials]));
+    let found = (0..12).map(|index| (genome(3, index), means(&genome(3, index), [1, 2, 4, 5])));
+    let is_refuted = |[.., own]: [Fitness; 4], judged: [Fitness; 2]| {
+        judged.iter().all(|it| it.get() < 0.85 * own.get())
+    };
+    let mut refuted = found.filter(|(_, (own, judged))| is_refuted(*own, *judged));
+    let (genome, ([one, two, four, own], [first, both])) = refuted.next().expect("a luckier one");
+    let looks = [one, two, four];
+
     let above = |fitness: Fitness| Fitness::new(fitness.get() + 1e-9);
     let estimate = |hurdles: Hurdles| problem.estimate(&genome, &hurdles).fitness;
-    let looks = [1, 2, 4].map(after);
     for (index, look) in looks.into_iter().enumerate() {
         let mut hurdles = Hurdles { looks, ..Hurdles::unjudged() };
         hurdles.looks[index] = above(look);
         assert_eq!(estimate(hurdles), look, "look {index}");
     }
-    let own = after(5);
-    assert_eq!(
-        estimate(Hurdles { looks, judge: own }),
-        own,
-        "who is not above the hurdle is not judged"
-    );
-    let creature = problem.express(&genome).unwrap();
-    let judged = [5, 6].map(|index| {
-        let trial = Task::Walk.trial().perturbed(index);
-        Task::Walk.score(&simulation::simulate(&creature, &trial, Engine::Rapier).unwrap())
-    });
-    let [first, both] =
-        [1, 2].map(|trials| own.min(Fitness::new(RobustBy::Mean.of(&judged[..trials]))));
-    assert!(first < own && both < own && first != both, "another creature shows more");
-    assert_eq!(estimate(Hurdles::judged_above(first)), first, "the judge stops");
-    assert_eq!(estimate(Hurdles { looks, judge: first.just_below() }), both);
-    let whole = problem.evaluate(&genome).fitness;
-    assert_eq!(whole, both);
-    let [one, two, four] = looks;
-    assert_eq!(problem.possible_scores(&genome), [one, two, four, own, first, whole]);
+    let judged_above = |judge| estimate(Hurdles { looks, judge });
+    assert_eq!(judged_above(own), own, "who is not above the hurdle is not judged");
+    assert_eq!(judged_above(first), first, "the judge stops");
+    assert_eq!(judged_above(first.just_below()), both, "the judge goes on");
+    assert_eq!(problem.evaluate(&genome).fitness, both);
+    assert_eq!(problem.possible_scores(&genome), [one, two, four, own, first, both]);
 }
 
 #[test]

@@ -55,12 +55,12 @@ pub struct TrialArgs {
     /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst
     #[arg(long, default_value_t, value_name = "HOW")]
     pub robust_by: RobustBy,
-    /// Score it in the other engine, too, and count the lower score
+    /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts
     #[arg(long, default_value_t = Locomotion::DEFAULT.judged, num_args = 0..=1, require_equals = true,
         default_missing_value = "true", action = clap::ArgAction::Set, value_name = "BOOL")]
     pub judged: bool,
     /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = 32, value_name = "L")]
+    #[arg(long, default_value_t = Locomotion::DEFAULT.links_max, value_name = "L")]
     pub max_links: usize,
     #[command(flatten)]
     pub terrain: TerrainArgs,
@@ -84,7 +84,7 @@ pub struct InspectArgs {
     #[command(flatten)]
     pub read: ReadArgs,
     /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = 32, value_name = "L")]
+    #[arg(long, default_value_t = Locomotion::DEFAULT.links_max, value_name = "L")]
     pub max_links: usize,
     /// Print one JSON object
     #[arg(long)]

@@ -177,7 +177,7 @@ impl Default for Config {
             judged: Locomotion::DEFAULT.judged,
             genes: 4,
             max_genes: variation.genes_max,
-            max_links: 32,
+            max_links: Locomotion::DEFAULT.links_max,
             selection: strategy.selection,
             elites: strategy.elites,
             survival: strategy.survival,

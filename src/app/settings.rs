@@ -47,7 +47,8 @@ pub struct SettingArgs {
     /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst [default: mean]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
-    /// Score champions and emigrants in the other engine, too, and count the lower score [default: true]
+    /// Have the other engine judge who would be champion or emigrates: where it finds less than 0.85 of a score, its own
+    /// counts [default: true]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     pub judged: Option<bool>,
     /// Genes of a random genome [default: 4]

@@ -19,6 +19,9 @@ pub const HEIGHT_MAX_M: f64 = 3.0;
 const LOOK_TRIALS: [usize; LOOKS] = [1, 2, 4];
 /// So many trials has the judge.
 const JUDGE_TRIALS: u32 = 2;
+/// A score of which the judge finds at least this share stands: engines never agree wholly, and two trials vary. Who had
+/// to be as good in both would have to be lucky with the judge, and nearly every good offspring would have to be judged.
+const CONFIRMED_SHARE: f64 = 0.85;
 /// The first perturbation that nobody is selected on.
 const FRESH: u32 = 1 << 20;
 
@@ -39,7 +42,8 @@ pub struct Locomotion {
     pub engine: Engine,
     /// How often they are tried.
     pub robustness: Robustness,
-    /// Whether who gets over all hurdles is judged by the other engine, too, and worth the lower of both scores.
+    /// Whether who gets over all hurdles is judged by the other engine, too, whose score counts if it does not confirm
+    /// the own one.
     pub judged: bool,
     /// What they stand on, if it is another ground than the task's.
     pub terrain: Option<&'static Terrain>,
@@ -58,7 +62,7 @@ impl Locomotion {
         scales: Scales::NONE,
         task: Task::Walk,
         genes: 4,
-        links_max: 32,
+        links_max: 16,
         engine: Engine::Featherstone,
         robustness: Robustness { trials: 8, by: RobustBy::Mean },
         judged: true,
@@ -162,8 +166,8 @@ impl Locomotion {
         }
     }
 
-    /// A body's score, or the lower one that the other engine gives it in perturbations of its own, as far as it gets
-    /// over the judge's hurdle.
+    /// A body's score if the other engine confirms it in perturbations of its own, else what it gets there, as far as
+    /// it gets over the judge's hurdle.
     fn judge(
         &self,
         creature: &Creature,
@@ -179,7 +183,8 @@ impl Locomotion {
         let mut scores = Vec::new();
         for trial in trials {
             scores.push(self.try_out(creature, &self.unpushed(trial), self.engine.other())?);
-            judged = score.min(self.robustness.by.of(&scores));
+            let found = self.robustness.by.of(&scores);
+            judged = if found < CONFIRMED_SHARE * score { score.min(found) } else { score };
             if Fitness::new(judged) <= hurdle {
                 break;
             }
