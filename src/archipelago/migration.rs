@@ -99,13 +99,15 @@ pub fn emigrate<P: Problem>(
 ) -> Outbox<P::Gene> {
     let draw = |slot| stream(moment, slot, Purpose::Emigration);
     let chosen = migration.emigrants.choose(&ranking(population), migration.migrants, draw);
-    let is_whole = |index: &usize| population[*index].genome == champion.genome;
+    let is_champion = |index: usize| population[index].genome == champion.genome;
+    let is_whole = |index: &usize| !problem.has_estimates() || is_champion(*index);
     let (whole, others): (Vec<usize>, Vec<usize>) = chosen.into_iter().partition(is_whole);
     let genomes: Vec<&[P::Gene]> =
         others.iter().map(|&index| population[index].genome.as_slice()).collect();
     let scores = problem.evaluate_batch(&genomes);
     let scores = scores.into_iter().map(|score| score.fitness);
-    let whole = whole.into_iter().map(|index| (index, champion.fitness));
+    let known = |index| if is_champion(index) { champion } else { &population[index] }.fitness;
+    let whole = whole.into_iter().map(|index| (index, known(index)));
     let migrants = whole.chain(others.into_iter().zip(scores));
     let with =
         |(index, fitness): (usize, Fitness)| Individual { fitness, ..population[index].clone() };

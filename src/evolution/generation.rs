@@ -271,6 +271,9 @@ pub fn evaluate<P: Problem>(
 /// Phase: gives the best of a population its whole score, and whoever is the best then. A judge only lowers scores, so
 /// that few have to be judged before one of them is the best.
 pub fn judge_best<P: Problem>(problem: &P, population: &mut Population<P::Gene>) {
+    if !problem.has_estimates() {
+        return;
+    }
     let mut judged = BTreeSet::new();
     while let Some(&best) = ranking(population).first().filter(|best| !judged.contains(*best)) {
         population[best].fitness = problem.evaluate(&population[best].genome).fitness;

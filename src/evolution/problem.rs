@@ -77,13 +77,27 @@ pub trait Problem: Sync + Sized {
         self.evaluate(genome)
     }
 
-    /// All scores that a genome can have on an island: what it gets where it fails at each look, where it is not judged
-    /// or stopped by the judge, and its whole score.
+    /// Whether some of the scores that [`Problem::estimate`] gives are estimates.
+    fn has_estimates(&self) -> bool {
+        false
+    }
+
+    /// All scores that a genome can have on an island: what it gets where it fails at each look, where it is not
+    /// judged, where the judge stops, and its whole score.
     fn possible_scores(&self, genome: &[Self::Gene]) -> Vec<Fitness> {
         let score = |hurdles: Hurdles| self.estimate(genome, &hurdles).fitness;
-        let unjudged = score(Hurdles::unjudged());
         let mut scores: Vec<Fitness> = (0..LOOKS).map(|look| score(Hurdles::only(look))).collect();
-        scores.extend([unjudged, score(Hurdles::judged_above(unjudged.just_below()))]);
+        // The judge stops where what it finds is lower than ever before.
+        let mut lowest = score(Hurdles::unjudged());
+        scores.push(lowest);
+        loop {
+            let found = score(Hurdles::judged_above(lowest.just_below()));
+            if found >= lowest {
+                break;
+            }
+            scores.push(found);
+            lowest = found;
+        }
         scores.push(score(Hurdles::NONE));
         scores
     }

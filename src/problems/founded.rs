@@ -78,6 +78,10 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.estimate(genome, hurdles)
     }
 
+    fn has_estimates(&self) -> bool {
+        self.problem.has_estimates()
+    }
+
     fn validate(&self, genome: &[P::Gene]) -> Option<Fitness> {
         self.problem.validate(genome)
     }

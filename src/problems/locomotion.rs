@@ -18,8 +18,8 @@ pub const HEIGHT_MAX_M: f64 = 3.0;
 /// of the residents then is tried no further.
 const LOOK_TRIALS: [usize; LOOKS] = [1, 2, 4];
 /// So many trials has the judge.
-const JUDGE_TRIALS: u32 = 2;
-/// A score of which the judge finds at least this share stands: engines never agree wholly, and two trials vary. Who had
+const JUDGE_TRIALS: u32 = 4;
+/// A score of which the judge finds at least this share stands: engines never agree wholly, and trials vary. Who had
 /// to be as good in both would have to be lucky with the judge, and nearly every good offspring would have to be judged.
 const CONFIRMED_SHARE: f64 = 0.85;
 /// The first perturbation that nobody is selected on.
@@ -301,6 +301,10 @@ impl Problem for Locomotion {
     fn estimate(&self, genome: &[Gene], hurdles: &Hurdles) -> Evaluation {
         let tried = catch_unwind(AssertUnwindSafe(|| self.score_genome(genome, hurdles)));
         evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
+    }
+
+    fn has_estimates(&self) -> bool {
+        self.judged || self.robustness.trials > 1
     }
 
     /// The mean of half of the usual fresh trials, in our own engine, which takes a tenth of rapier's time.

@@ -144,7 +144,7 @@ impl Visitor for Examination<'_> {
 
 fn examine<P: Subject>(dir: &RunDir, config: &Config, problem: &P, thorough: bool) -> Verdict {
     let summary = claims::SummaryFile::read(dir);
-    let terms = Terms::new(config, summary.is_of_the_end(config.generations), P::HAS_BODIES);
+    let terms = Terms::new(config, summary.is_of_the_end(config.generations), problem);
     let (records, mut checks) = Records::<P::Gene>::read(dir, &terms);
     let sound = checks.iter().all(Check::is_fine);
     checks.push(ancestry::check(dir, problem, &terms, &records, sound));

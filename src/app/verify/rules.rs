@@ -3,8 +3,8 @@
 //! Checksums show what was damaged by chance. These rules show what was changed and given a right checksum, as far
 //! as that can be seen without evolving the whole run again.
 
-use super::super::catalogue::Kind;
 use super::super::config::Config;
+use super::super::subject::Subject;
 use crate::archipelago::arrivals::check_record;
 use crate::archipelago::{
     Archipelago, Arrivals, Birth, Births, Champion, Emigrants, ExchangeMode, Graph, Island, Outbox,
@@ -24,6 +24,8 @@ pub struct Terms<'a> {
     pub finished: bool,
     /// Whether its champions were tried on fresh trials.
     pub is_validated: bool,
+    /// Whether offspring may have estimates instead of whole scores.
+    pub has_estimates: bool,
     archipelago: Archipelago,
     graph: Graph,
     settings: String,
@@ -31,10 +33,11 @@ pub struct Terms<'a> {
 
 impl<'a> Terms<'a> {
     /// The terms of a run that was launched.
-    pub fn new(config: &'a Config, finished: bool, is_validated: bool) -> Self {
+    pub fn new<P: Subject>(config: &'a Config, finished: bool, problem: &P) -> Self {
+        let (is_validated, has_estimates) = (P::HAS_BODIES, problem.has_estimates());
         let (archipelago, settings) = (config.archipelago(), config.settings_of(config.version()));
         let graph = archipelago.graph();
-        Self { config, finished, is_validated, archipelago, graph, settings }
+        Self { config, finished, is_validated, has_estimates, archipelago, graph, settings }
     }
 
     /// Whether this version of the program made it; another one may write the same otherwise.
@@ -135,7 +138,7 @@ impl<'a> Terms<'a> {
                 .map_err(|reason| format!("what it says of generation {generation} {reason}"))?;
         }
         let Some(state) = state else { return Ok(()) };
-        let travels = self.config.problem == Kind::Creatures
+        let travels = self.has_estimates
             && self.archipelago.migration.migrants > 0
             && self.archipelago.islands > 1;
         let mut natives = state.population.iter().filter(|one| one.id.island == state.index);
@@ -335,9 +338,10 @@ impl<'a> Terms<'a> {
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
             let best = entries.get(generation).map(|entry| entry.report.statistics.best);
             let sends_the_best = self.config.emigrants == Emigrants::Best;
+            // Where the best may have an estimate, only an elite is known to have none.
             if let (Some(best), Some(&first)) = (best, fitness.first())
                 && sends_the_best
-                && self.keeps_its_best()
+                && (self.keeps_its_best() || !self.has_estimates)
                 && first != best
             {
                 return wrong(&format!("disagrees with the report of generation {generation}"));
