@@ -104,6 +104,7 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     let names: Vec<_> = goldens.iter().map(|path| path.file_stem().unwrap()).collect();
     let expected = [
         "climb-featherstone",
+        "climb-quartile",
         "climb-rapier",
         "course-coursework",
         "debug-featherstone",
@@ -111,6 +112,7 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
         "rastrigin",
         "trap",
         "travel-lecture",
+        "travel-worst",
         "walk-featherstone",
         "walk-native",
     ];

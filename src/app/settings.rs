@@ -57,7 +57,7 @@ pub struct SettingArgs {
     /// No genome gets longer than this [default: 12]
     #[arg(long, value_name = "G", help_heading = "Genetic algorithm")]
     pub max_genes: Option<usize>,
-    /// No body gets more links than this [default: 32]
+    /// No body gets more links than this [default: 16]
     #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
     pub max_links: Option<usize>,
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION

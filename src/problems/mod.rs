@@ -2,7 +2,7 @@
 //!
 //! [`locomotion`] evolves creatures that move: [`task`] says what they have to do, [`progress`] how far one got,
 //! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
-//! on. [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones and zeros,
+//! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones and zeros,
 //! both of a [`fixed`] length. [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
@@ -75,6 +75,7 @@ pub mod functions;
 pub mod locomotion;
 pub mod progress;
 pub mod robustness;
+mod scoring;
 pub mod task;
 pub mod validation;
 
