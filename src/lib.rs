@@ -4,6 +4,8 @@
 //! exchange their best through shared memory. A run is a function of its seed: the same seed gives the
 //! same final populations to the last bit, whatever the number of threads, the scheduling or the build.
 //!
+//! The [`guide`] says how to use the program. This page is for those who read or change the code.
+//!
 //! # A tour, by floors
 //!
 //! A module imports only from floors below its own; a test reads the sources and makes sure.
@@ -23,6 +25,7 @@
 //! |   | [`formats`] | files for people and other programs |
 //! |   | `view` | the run as a film in Rerun (feature `view`) |
 //! | 5 | [`app`] | the program |
+//! | 6 | [`guide`] | the user's guide, which is text alone |
 //!
 //! Start with [`archipelago::island::step`], one generation of one island as a list of phases, and
 //! [`archipelago::lockstep`], a whole run in twenty lines.
@@ -74,3 +77,5 @@ pub mod transport;
 pub mod view;
 
 pub mod app;
+
+pub mod guide;

@@ -20,6 +20,7 @@ mod onlooker;
 mod physics;
 mod problems;
 mod readers;
+mod readme;
 #[cfg(feature = "view")]
 mod recording;
 #[cfg(feature = "view")]
