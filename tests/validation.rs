@@ -10,7 +10,7 @@ use islands::store::{RecordLog, RunDir};
 const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";
 
 fn evolved(world: &World) -> (serde_json::Value, Vec<Champion<Gene>>) {
-    let settings = format!("--n 2 --seed 3 --robustness 3 --no-monitor {TINY}");
+    let settings = format!("--n 2 --seed 3 --robustness 3 --judged --no-monitor {TINY}");
     let result = world.json(&format!("--out run --json {settings}"));
     let dir = RunDir::at(world.path("run"));
     let log = |island| RecordLog::<Champion<Gene>>::read(&dir.champions(island)).unwrap().records;

@@ -278,7 +278,7 @@ pub struct ReplayArgs {
     /// What the scores of these trials come to: mean, median, quartile or worst [default: mean, or as in the run]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
-    /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts [default: true, or as in the run]
+    /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts [default: false, or as in the run]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     pub judged: Option<bool>,
     /// No body gets more links than this, but for profile coursework [default: 16, or as in the run]

@@ -48,7 +48,7 @@ pub struct SettingArgs {
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
     /// Have the other engine judge who would be champion or emigrates: where it finds less than 0.85 of a score, its own
-    /// counts [default: true]
+    /// counts [default: false]
     #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
     pub judged: Option<bool>,
     /// Genes of a random genome [default: 4]

@@ -53,7 +53,7 @@ impl Locomotion {
         links_max: 16,
         engine: Engine::Featherstone,
         robustness: Robustness { trials: 8, by: RobustBy::Mean },
-        judged: true,
+        judged: false,
         terrain: None,
     };
 
