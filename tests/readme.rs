@@ -16,7 +16,7 @@ const FILMING: [&str; 2] = ["replay ", "monitor "];
 
 /// Settings with which a run of any problem, and one of creatures, takes a moment.
 const SHORT: [&str; 2] = ["--generations 2", "--view off"];
-const SHORT_OF_CREATURES: [&str; 3] = ["--population 4", "--robustness 0", "--judged=false"];
+const SHORT_OF_CREATURES: [&str; 2] = ["--population 4", "--robustness 0"];
 
 #[test]
 fn the_readme_has_at_most_150_lines() {
@@ -42,7 +42,7 @@ fn commands_are_shortened_and_keep_what_else_they_say() {
     for (command, short) in [
         (
             "--n 4 --generations 20 --seed 7",
-            "--n 4 --seed 7 --generations 2 --view off --population 4 --robustness 0 --judged=false",
+            "--n 4 --seed 7 --generations 2 --view off --population 4 --robustness 0",
         ),
         (
             "run --problem sphere --dimensions 9",
@@ -147,7 +147,7 @@ fn shortened_line(line: &str) -> String {
     let line = match line.split_whitespace().next() {
         Some("seeds") => "seeds = 2",
         Some("evaluations") => "evaluations = 16",
-        Some("[base]") => "[base]\npopulation = 4\nrobustness = 0\njudged = false",
+        Some("[base]") => "[base]\npopulation = 4\nrobustness = 0",
         _ => line,
     };
     format!("{line}\n")

@@ -206,7 +206,7 @@ mod tests {
             --topology torus --emigrants random --replacement similar --exchange async \
             --checkpoint-interval 9 --clip-every 9 --threads 9 --engine rapier --algorithm random --survival crowding \
             --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
-            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by worst --judged=false";
+            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by worst --judged";
         let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
         let laid =
             toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");

@@ -50,7 +50,7 @@ mod tests {
         assert_eq!(
             command(&RunDir::at("my run"), &config),
             "islands replay 'my run/champion.csv' --task climb --profile coursework --scale link-length=0.5 \
-             --engine featherstone --robustness 3 --robust-by mean --judged=true --max-links 9 --terrain 'my run/terrain.csv' --out champion.rrd"
+             --engine featherstone --robustness 3 --robust-by mean --judged=false --max-links 9 --terrain 'my run/terrain.csv' --out champion.rrd"
         );
     }
 }
