@@ -140,7 +140,7 @@ def _flags(flags: str) -> argparse.Namespace:
     parser.add_argument("--task", default="walk")
     parser.add_argument("--profile", default="native")
     parser.add_argument("--engine", default="featherstone")
-    parser.add_argument("--max-links", default="32")
+    parser.add_argument("--max-links", default="16")
     parser.add_argument("--scale", action="append", default=[])
     parser.add_argument("--terrain", type=Path)
     return parser.parse_known_args(shlex.split(flags))[0]
