@@ -14,7 +14,7 @@ use std::time::Duration;
 const ISLANDS: u32 = 4;
 const GENERATIONS: u32 = 14;
 /// A run of a second or two.
-const RUN: &str = "--n 4 --seed 43 --population 5 --robustness 0 --judged=false --generations 14 --genes 2 --migration-interval 2 \
+const RUN: &str = "--n 4 --seed 43 --population 5 --robustness 0 --generations 14 --genes 2 --migration-interval 2 \
                    --exchange async --topology full";
 
 fn dir(world: &World) -> RunDir {

@@ -15,7 +15,7 @@ use std::time::Duration;
 
 const ROUNDS: &str = "ISLANDS_CHAOS_ROUNDS";
 const ISLANDS: u32 = 4;
-const RUN: &str = "--n 4 --seed 43 --population 5 --robustness 0 --judged=false --generations 14 --genes 2 --migration-interval 2";
+const RUN: &str = "--n 4 --seed 43 --population 5 --robustness 0 --generations 14 --genes 2 --migration-interval 2";
 /// Blows in a round; then the run may come to its end.
 const BLOWS: usize = 14;
 

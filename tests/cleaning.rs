@@ -4,7 +4,7 @@ use crate::support::{World, await_generation, is_alive, run_id, runs_in_shared_m
 use islands::store::RunDir;
 use std::fs;
 
-const ENDLESS: &str = "--n 2 --seed 3 --population 4 --robustness 0 --judged=false --generations 1000000 --genes 1 --migration-interval 1 --no-monitor";
+const ENDLESS: &str = "--n 2 --seed 3 --population 4 --robustness 0 --generations 1000000 --genes 1 --migration-interval 1 --no-monitor";
 
 #[test]
 fn what_a_killed_launcher_left_is_removed_from_anywhere_and_a_living_run_is_not_touched() {

@@ -165,7 +165,7 @@ fn a_run_keeps_the_terrain_that_it_was_on_and_everybody_uses_it() {
     let whole = world.digest("longer", "--config run/run.toml --generations 4");
     assert_eq!(longer["digest"], whole);
 
-    let champion = "run/champion.csv --robustness 0 --judged=false";
+    let champion = "run/champion.csv --robustness 0";
     let score = |more: &str| {
         world.json(&format!("evaluate {champion} --json {more}"))["genomes"][0]["fitness"].clone()
     };

@@ -61,8 +61,7 @@ fn the_number_of_threads_changes_no_digest_and_no_metric() {
 #[test]
 fn processes_that_exchange_migrants_equal_an_archipelago_in_one_process() {
     let world = World::new();
-    let settings =
-        "--seed 19 --population 4 --robustness 0 --judged=false --generations 3 --genes 2";
+    let settings = "--seed 19 --population 4 --robustness 0 --generations 3 --genes 2";
     for (name, more) in [
         ("three", "--n 3 --migration-interval 1"),
         ("three-at-once", "--n 3 --migration-interval 2 --migration-lag 0"),

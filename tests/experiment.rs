@@ -46,7 +46,7 @@ fn each_run_has_the_digest_that_islands_run_prints() {
     let result = world.json("experiment tiny.toml --json --threads 2");
     assert_eq!((&result["runs"], &result["kept"]), (&8.into(), &0.into()));
     assert_eq!(result["unit"], "m");
-    let settings = "--n 2 --population 4 --robustness 0 --judged=false --genes 2 --migration-interval 1 --engine featherstone";
+    let settings = "--n 2 --population 4 --robustness 0 --genes 2 --migration-interval 1 --engine featherstone";
     let rows = rows(&world, "experiments/tiny/runs.csv");
     assert_eq!(rows.len(), 8);
     for (index, row) in rows.iter().enumerate() {
@@ -74,7 +74,7 @@ fn a_run_that_its_budget_ended_is_the_run_of_as_many_generations() {
     world.json("experiment tiny.toml --quiet --json --out here");
     let row = &rows(&world, "here/runs.csv")[0];
     let last: u32 = row["final_generation"].parse().unwrap();
-    let settings = "--n 2 --population 4 --robustness 0 --judged=false --genes 2 --migration-interval 1 --engine featherstone";
+    let settings = "--n 2 --population 4 --robustness 0 --genes 2 --migration-interval 1 --engine featherstone";
     let digest = world.digest("run", &format!("--seed 1 --generations {last} {settings}"));
     assert_eq!(row["digest"], digest);
     let curve = rows(&world, "here/curves.csv");

@@ -11,10 +11,10 @@ use std::fs;
 use std::process::{Command, Stdio};
 
 /// A run of short generations that nobody waits for.
-const ENDLESS: &str = "--out run --seed 3 --population 4 --robustness 0 --judged=false --generations 1000000 --genes 1 \
+const ENDLESS: &str = "--out run --seed 3 --population 4 --robustness 0 --generations 1000000 --genes 1 \
                        --migration-interval 1 --no-monitor --quiet";
 /// One that writes much, evolves nothing and needs little shared memory.
-const COPYIST: &str = "--out run --seed 3 --population 8 --robustness 0 --judged=false --migrants 8 --elites 1 --genes 1 --max-genes 1 \
+const COPYIST: &str = "--out run --seed 3 --population 8 --robustness 0 --migrants 8 --elites 1 --genes 1 --max-genes 1 \
                        --crossover-rate 0 --point-rate 0 --shrink-rate 0 --grow-rate 0 --migration-interval 1";
 /// So often an island may end by itself at the same generation.
 const DEATHS_MAX: usize = 5;

@@ -67,7 +67,7 @@ fn a_recording_of_numbers_holds_curves_families_and_events_and_nothing_in_space(
 #[test]
 fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
     let world = World::new();
-    let settings = "--population 6 --robustness 0 --judged=false --generations 6 --genes 2";
+    let settings = "--population 6 --robustness 0 --generations 6 --genes 2";
     let run = world.start(&format!("--n 2 --seed 43 --out run --quiet --json {settings}"));
     let monitor = run.child("monitor");
     signal(monitor, "STOP");
@@ -85,8 +85,7 @@ fn a_monitor_that_comes_late_still_films_the_whole_of_a_short_run() {
 #[test]
 fn a_monitor_that_is_killed_again_and_again_leaves_a_film_without_gaps_or_doubles() {
     let world = World::new();
-    let settings =
-        "--population 4 --robustness 0 --judged=false --generations 40 --genes 1 --elites 1";
+    let settings = "--population 4 --robustness 0 --generations 40 --genes 1 --elites 1";
     let run = world.start(&format!("--n 2 --seed 43 --out run --quiet --json {settings}"));
     let dir = RunDir::at(world.path("run"));
     for generation in [2, 5, 8] {
@@ -144,7 +143,8 @@ fn a_monitor_that_is_killed_after_the_islands_have_finished_still_leaves_the_fil
 #[test]
 fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() {
     let world = World::new();
-    let endless = "--population 4 --robustness 0 --judged=false --generations 1000000 --genes 1 --migration-interval 1";
+    let endless =
+        "--population 4 --robustness 0 --generations 1000000 --genes 1 --migration-interval 1";
     let run = world.start(&format!("--n 1 --seed 3 --out run --no-monitor --quiet {endless}"));
     let dir = RunDir::at(world.path("run"));
     await_generation(&dir, 1, 2);
@@ -167,8 +167,7 @@ fn a_monitor_that_nobody_started_follows_a_run_to_its_end_and_is_the_only_one() 
 #[test]
 fn champions_that_are_seen_are_checked_and_no_others_are_simulated() {
     let world = World::new();
-    let settings =
-        "--population 2 --robustness 0 --judged=false --generations 31 --genes 1 --elites 1";
+    let settings = "--population 2 --robustness 0 --generations 31 --genes 1 --elites 1";
     world.json(&format!("--n 1 --seed 47 --out run --no-monitor --quiet --json {settings}"));
     let path = RunDir::at(world.path("run")).champions(0);
     let champion = RecordLog::<Champion<Gene>>::read(&path).unwrap().records.remove(0);
@@ -280,8 +279,7 @@ fn a_wished_port_that_is_taken_is_said_and_nobody_is_served_if_that_is_wished() 
     let world = World::new();
     let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port();
-    let settings =
-        "--n 1 --seed 3 --population 4 --robustness 0 --judged=false --generations 2 --genes 1";
+    let settings = "--n 1 --seed 3 --population 4 --robustness 0 --generations 2 --genes 1";
     let ending = world.islands(&format!("{settings} --out a --view-port {port}"));
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let said = format!("port {port} is taken; the live view is served on port ");

@@ -18,8 +18,7 @@ const WALK: Locomotion =
 fn a_replay_shows_the_simulation_that_got_the_score() {
     let world = World::new();
     let run = world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
-    let ending =
-        world.islands("replay run/champion.csv --robustness 0 --judged=false --out champion.rrd");
+    let ending = world.islands("replay run/champion.csv --robustness 0 --out champion.rrd");
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let score = format!("{:.3} m", run["best_fitness"].as_f64().unwrap());
     assert!(ending.stdout.contains(&score), "{ending:?}");
@@ -55,7 +54,7 @@ fn several_creatures_race_in_one_replay() {
 #[test]
 fn the_ancestors_of_a_champion_are_bred_again_from_a_random_body_on() {
     let world = World::new();
-    let settings = "--population 6 --robustness 0 --judged=false --generations 8 --genes 2 --migration-interval 1 --migrants 2";
+    let settings = "--population 6 --robustness 0 --generations 8 --genes 2 --migration-interval 1 --migrants 2";
     world.json(&format!("--n 2 --seed 41 --out run --quiet --no-monitor --json {settings}"));
     let ending = world.islands("replay run --ancestry");
     assert_eq!((ending.code, ending.stderr.as_str()), (Some(0), ""), "{ending:?}");
@@ -91,8 +90,7 @@ fn the_champions_of_a_run_are_shown_through_its_generations() {
 fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
     let world = World::new();
     world.json(&format!("--n 1 --seed 47 --out run --no-monitor --json {TINY}"));
-    let ending =
-        world.islands("replay run/champion.csv --robustness 0 --judged=false --seconds 12");
+    let ending = world.islands("replay run/champion.csv --robustness 0 --seconds 12");
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let recording = Recording::read(&world.path("run/champion.rrd"));
     // Settling comes first; there is a frame for each sixtieth of a second but the last.
@@ -118,7 +116,8 @@ fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
     let world = World::new();
     let founder = |i| crate::course::fixture(&format!("genome_{i}.csv"));
     (0..5).for_each(|i| world.write(&format!("{i}.csv"), founder(i)));
-    let settings = "--population 4 --robustness 0 --judged=false --generations 5 --elites 0 --max-genes 20 --max-links 8";
+    let settings =
+        "--population 4 --robustness 0 --generations 5 --elites 0 --max-genes 20 --max-links 8";
     let seeds =
         "--seed-genomes 0.csv 1.csv 2.csv 3.csv 4.csv --profile coursework --scale link-length=1";
     world.json(&format!("--n 2 --seed 23 --out run --no-monitor --json {settings} {seeds}"));

@@ -7,9 +7,9 @@ use serde_json::Value;
 use std::fs;
 
 /// A run that nobody waits for.
-const ENDLESS: &str = "--n 2 --seed 3 --population 4 --robustness 0 --judged=false --generations 1000000 --genes 1 --migration-interval 1";
+const ENDLESS: &str = "--n 2 --seed 3 --population 4 --robustness 0 --generations 1000000 --genes 1 --migration-interval 1";
 /// A run of a second or two.
-const RUN: &str = "--n 2 --seed 37 --population 5 --robustness 0 --judged=false --generations 14 --genes 2 --migration-interval 2";
+const RUN: &str = "--n 2 --seed 37 --population 5 --robustness 0 --generations 14 --genes 2 --migration-interval 2";
 
 /// Starts a run, and waits until its islands have evolved some generations.
 fn start(world: &World, settings: &str, generation: u32) -> Running {
@@ -72,8 +72,7 @@ fn an_interrupted_run_goes_on_to_the_same_result() {
 fn who_interrupts_twice_does_not_wait_and_loses_nothing_either() {
     let world = World::new();
     // A generation takes far longer than anybody waits for.
-    let settings =
-        "--n 2 --seed 5 --population 3000 --robustness 0 --judged=false --generations 1 --genes 4";
+    let settings = "--n 2 --seed 5 --population 3000 --robustness 0 --generations 1 --genes 4";
     let run = world.start(&format!("--out run --no-monitor --json {settings}"));
     run.child("--index=1");
     run.signal("INT");
@@ -101,7 +100,7 @@ fn a_run_whose_launcher_is_killed_ends_by_itself_and_can_be_resumed() {
 #[test]
 fn a_longer_run_contains_a_shorter_one() {
     let world = World::new();
-    let longer = "--n 2 --seed 37 --population 5 --robustness 0 --judged=false --generations 20 --genes 2 --migration-interval 2";
+    let longer = "--n 2 --seed 37 --population 5 --robustness 0 --generations 20 --genes 2 --migration-interval 2";
     let expected = world.json(&format!("--out longer --no-monitor --quiet --json {longer}"));
     world.digest("run", RUN);
     let result = world.json("resume run --generations 20 --no-monitor --json");
@@ -217,8 +216,7 @@ fn what_a_run_makes_is_for_its_user_only() {
 #[test]
 fn a_run_that_died_in_its_first_generation_starts_anew() {
     let world = World::new();
-    let settings =
-        "--n 1 --seed 3 --population 40 --robustness 0 --judged=false --generations 1 --genes 3";
+    let settings = "--n 1 --seed 3 --population 40 --robustness 0 --generations 1 --genes 3";
     let expected: Value = world.digest("undisturbed", settings).into();
     let run = world.start(&format!("--out run --no-monitor --json {settings}"));
     run.child("--index=0");

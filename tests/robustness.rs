@@ -42,14 +42,14 @@ fn a_robust_score_is_what_its_name_says_of_the_perturbed_trials() {
     for engine in Engine::ALL {
         for index in 0..4 {
             let genome = genome(3, index);
-            let scores = one_by_one(3, &genome, engine);
+            let scores = one_by_one(12, &genome, engine);
             let scores: Vec<f64> = scores.iter().map(|one| one.fitness.finite().unwrap()).collect();
             let found = RobustBy::ALL
                 .map(|by| robust(3, by, engine).evaluate(&genome).fitness.finite().unwrap());
             assert_eq!(found, RobustBy::ALL.map(|by| by.of(&scores)));
             let [worst, .., mean] = found;
             assert_eq!(worst, scores.iter().copied().fold(f64::MAX, f64::min));
-            assert_eq!(mean, scores.iter().sum::<f64>() / 3.0);
+            assert_eq!(mean, scores.iter().sum::<f64>() / 12.0);
             assert!(worst <= mean);
             differ += usize::from(worst < mean);
         }
@@ -108,14 +108,14 @@ fn whoever_fails_in_one_perturbed_trial_has_failed() {
 #[test]
 fn a_film_has_the_score_of_all_trials_and_shows_the_one_that_is_nearest_to_it() {
     for engine in Engine::ALL {
-        let problem = robust(3, RobustBy::Median, engine);
+        let problem = robust(3, RobustBy::Worst, engine);
         let genome = genome(3, 0);
         let (evaluation, film) = problem.film(&genome).unwrap();
         assert_eq!(evaluation, problem.evaluate(&genome));
-        let scores = one_by_one(3, &genome, engine);
-        let median = scores.iter().position(|score| *score == evaluation).unwrap() as u32;
+        let scores = one_by_one(12, &genome, engine);
+        let worst = scores.iter().position(|score| *score == evaluation).unwrap() as u32;
         let creature = problem.express(&genome).unwrap();
-        let trial = Task::Walk.trial().perturbed(median);
+        let trial = Task::Walk.trial().perturbed(worst);
         assert!(film == simulation::film(&creature, &trial, engine).1, "{engine}");
     }
 }
@@ -129,7 +129,7 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
             let own = robust(4, RobustBy::Mean, engine);
             let score = |problem: Locomotion| problem.evaluate(&genome).fitness;
             let creature = own.express(&genome).unwrap();
-            let others = [4, 5, 6, 7].map(|index| {
+            let others = [16, 17, 18, 19].map(|index| {
                 let trial = Task::Walk.trial().perturbed(index);
                 let measured = simulation::simulate(&creature, &trial, engine.other()).unwrap();
                 Task::Walk.score(&measured)
@@ -145,54 +145,59 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
     assert!((1..12).contains(&lowered), "{lowered}");
 }
 
-/// The means of a genome's first trials: of so many in featherstone, and of one to four of rapier's as a judge.
-fn means(genome: &[Gene], own: [usize; 4]) -> ([Fitness; 4], [Fitness; 4]) {
-    let mean = |scores: &[f64]| Fitness::new(RobustBy::Mean.of(scores));
-    let scores = one_by_one(5, genome, Engine::Featherstone);
+/// The means of a genome's first trials in featherstone, of all prefixes, and of one to four of rapier's as a judge.
+fn means(genome: &[Gene]) -> (Vec<Fitness>, Vec<Fitness>) {
+    let prefixes = |scores: &[f64]| {
+        let mean = |trials: usize| Fitness::new(RobustBy::Mean.of(&scores[..trials]));
+        (0..=scores.len()).map(mean).collect()
+    };
+    let scores = one_by_one(20, genome, Engine::Featherstone);
     let scores: Vec<f64> = scores.iter().map(|one| one.fitness.get()).collect();
     let creature = Locomotion::DEFAULT.express(genome).unwrap();
-    let judged = [5, 6, 7, 8].map(|index| {
+    let judged = [20, 21, 22, 23].map(|index| {
         let trial = Task::Walk.trial().perturbed(index);
         Task::Walk.score(&simulation::simulate(&creature, &trial, Engine::Rapier).unwrap())
     });
-    (own.map(|trials| mean(&scores[..trials])), [1, 2, 3, 4].map(|trials| mean(&judged[..trials])))
+    (prefixes(&scores), prefixes(&judged))
 }
 
 #[test]
 fn who_fails_at_a_hurdle_has_the_estimate_of_the_trials_until_then() {
     let problem = Locomotion { judged: true, ..robust(5, RobustBy::Mean, Engine::Featherstone) };
-    let found = (0..12).map(|index| (genome(3, index), means(&genome(3, index), [1, 2, 4, 5])));
-    let is_refuted = |[.., own]: [Fitness; 4], judged: [Fitness; 4]| {
-        judged.iter().all(|it| it.get() < 0.85 * own.get())
+    let found = (0..12).map(|index| (genome(3, index), means(&genome(3, index))));
+    let is_refuted = |own: &[Fitness], judged: &[Fitness]| {
+        judged[1..].iter().all(|it| it.get() < 0.85 * own[20].get())
     };
-    let mut refuted = found.filter(|(_, (own, judged))| is_refuted(*own, *judged));
-    let (genome, ([one, two, four, own], judged)) = refuted.next().expect("a luckier one");
-    let looks = [one, two, four];
+    let mut refuted = found.filter(|(_, (own, judged))| is_refuted(own, judged));
+    let (genome, (own, judged)) = refuted.next().expect("a luckier one");
 
-    let above = |fitness: Fitness| Fitness::new(fitness.get() + 1e-9);
+    let looks = [own[1], own[2], own[4]];
     let estimate = |hurdles: Hurdles| problem.estimate(&genome, &hurdles).fitness;
-    for (index, look) in looks.into_iter().enumerate() {
-        let mut hurdles = Hurdles { looks, ..Hurdles::unjudged() };
-        hurdles.looks[index] = above(look);
-        assert_eq!(estimate(hurdles), look, "look {index}");
+    for index in 0..3 {
+        let mut hurdles = Hurdles { looks, ..Hurdles::LAST };
+        hurdles.looks[index] = Fitness::new(looks[index].get() + 1e-9);
+        assert_eq!(estimate(hurdles), looks[index], "look {index}");
     }
-    let judged_above = |judge| estimate(Hurdles { looks, judge });
-    assert_eq!(judged_above(own), own, "who is not above the hurdle is not judged");
+    assert_eq!(estimate(Hurdles { looks, ..Hurdles::LAST }), own[5], "usual trials for all");
+    let best_of = |best| estimate(Hurdles { looks, best });
+    let after = [own[5], own[10], own[15], own[20]].into_iter().chain(judged[1..].to_vec());
     let mut lows: Vec<Fitness> = Vec::new();
-    for found in judged {
-        if lows.last().is_none_or(|lowest| found < *lowest) {
-            assert_eq!(judged_above(found), found, "the judge stops as soon as it knows");
-            lows.push(found);
+    for so_far in after.clone() {
+        if lows.last().is_none_or(|lowest| so_far < *lowest) {
+            assert_eq!(best_of(so_far), so_far, "it stops as soon as it is known as no better");
+            lows.push(so_far);
         }
     }
-    let whole = judged[3];
+    assert!(lows.len() > 2, "{lows:?}");
+    let whole = judged[4];
     assert_eq!(problem.evaluate(&genome).fitness, whole);
-    assert_eq!(judged_above(lows.pop().unwrap().just_below()), whole);
+    assert_eq!(best_of(lows.last().unwrap().just_below()), whole);
     let possible = problem.possible_scores(&genome);
-    let expected = [one, two, four, own].into_iter().chain(judged);
+    let expected = looks.into_iter().chain(after);
     assert!(possible.iter().all(|score| expected.clone().any(|it| it == *score)), "{possible:?}");
     let is_possible = |score: &Fitness| possible.contains(score);
-    assert!([one, two, four, own, whole].iter().chain(&lows).all(is_possible), "{possible:?}");
+    assert!(looks.iter().chain(&lows).chain([&whole]).all(is_possible), "{possible:?}");
+    assert_eq!(possible.last(), Some(&whole));
 }
 
 #[test]
@@ -281,7 +286,7 @@ fn what_a_run_says_of_robust_champions_is_what_everybody_else_finds() {
     assert!(!world.read("run/run.log").contains("WARNING"));
     let scores = world.json(&format!("evaluate run/champion.csv --json {wish}"));
     assert_eq!(scores["genomes"][0]["fitness"], result["best_fitness"], "{scores}");
-    let plainly = world.json("evaluate run/champion.csv --json --robustness 0 --judged=false");
+    let plainly = world.json("evaluate run/champion.csv --json --robustness 0");
     assert_ne!(plainly["genomes"][0]["fitness"], result["best_fitness"], "{plainly}");
     let verified = world.islands("verify run --thorough --json");
     assert_eq!(verified.code, Some(0), "{verified:?}");
@@ -302,8 +307,8 @@ fn a_replay_shows_robust_scores_as_the_run_had_them_and_others_if_it_is_told_to(
     assert!(shown("run"));
     assert!(shown("run --ancestry"));
     assert!(shown(&format!("run/champion.csv {wish}")));
-    assert!(!shown("run --robustness 0 --judged=false"));
-    assert!(!shown("run/champion.csv --robustness 0 --judged=false"));
+    assert!(!shown("run --robustness 0"));
+    assert!(!shown("run/champion.csv --robustness 0"));
     let said = world.refusal("replay run/champion.csv --robustness 101");
     assert!(said.contains("robustness must be from 0 to 100"), "{said}");
 }

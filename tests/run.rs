@@ -94,9 +94,8 @@ fn the_champion_in_the_file_gets_exactly_the_fitness_that_is_claimed() {
         let world = World::new();
         let run = world
             .json(&format!("--n 2 --seed 7 --task {task} --out run --no-monitor --json {TINY}"));
-        let scores = world.json(&format!(
-            "evaluate run/champion.csv --task {task} --robustness 0 --judged=false --json"
-        ));
+        let scores =
+            world.json(&format!("evaluate run/champion.csv --task {task} --robustness 0 --json"));
         let [claimed, found] = [&run["best_fitness"], &scores["genomes"][0]["fitness"]];
         assert_eq!(found.as_f64().unwrap().to_bits(), claimed.as_f64().unwrap().to_bits());
     }
@@ -166,7 +165,7 @@ fn more_islands_than_cores_work() {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let world = World::new();
     let islands = cores + 3;
-    let settings = "--seed 3 --population 2 --robustness 0 --judged=false --generations 2 --genes 1 --elites 1 --migration-interval 1";
+    let settings = "--seed 3 --population 2 --robustness 0 --generations 2 --genes 1 --elites 1 --migration-interval 1";
     world.digest("run", &format!("--n {islands} {settings}"));
     let rows = metrics::read(world.read("run/metrics.csv").as_bytes()).unwrap();
     assert_eq!(rows.len(), islands * 3);

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 /// Settings of a run that takes a moment and in which migrants arrive all the same.
 pub const TINY: &str =
-    "--population 4 --robustness 0 --judged=false --generations 3 --genes 2 --migration-interval 1";
+    "--population 4 --robustness 0 --generations 3 --genes 2 --migration-interval 1";
 
 const SHARED_MEMORY: &str = "/dev/shm";
 /// What the names of all that runs have in shared memory begin with; their id follows.

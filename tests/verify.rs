@@ -14,7 +14,8 @@ use std::process::Command;
 use tools::{a_bit_more, changed, cut, evolved, finds, flip, forge, forge_state, lengthen, verify};
 
 /// A run that nobody waits for, whose islands exchange, with champions that are not soon the last.
-const ENDLESS: &str = "--population 4 --robustness 0 --judged=false --generations 1000000 --genes 1 --migration-interval 1";
+const ENDLESS: &str =
+    "--population 4 --robustness 0 --generations 1000000 --genes 1 --migration-interval 1";
 
 #[test]
 fn a_sound_run_is_verified_with_its_digest() {

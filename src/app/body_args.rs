@@ -49,7 +49,8 @@ pub struct TrialArgs {
     /// Physics engine: featherstone (our own, ten times as fast) or rapier
     #[arg(long, default_value_t)]
     pub engine: Engine,
-    /// Perturbed trials: friction, motor strength, first direction, a push and the step differ; 0 for one trial as it is
+    /// Perturbed trials: friction, motor strength, first direction, a push and the step differ; of so many and three
+    /// times more, which the best of an island have, the score is made; 0 for one trial as it is
     #[arg(long, default_value_t = Locomotion::DEFAULT.robustness.trials, value_name = "K")]
     pub robustness: u32,
     /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst

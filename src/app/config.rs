@@ -70,7 +70,7 @@ pub struct Config {
     pub profile: Profile,
     /// What moves the bodies.
     pub engine: Engine,
-    /// Perturbed trials of a genome; 0 for one that is not perturbed.
+    /// Perturbed trials of a genome, and four times as many of who may be the best; 0 for one that is not perturbed.
     pub robustness: u32,
     /// What their scores come to.
     pub robust_by: RobustBy,

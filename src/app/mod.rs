@@ -27,6 +27,7 @@ mod genomes;
 mod import;
 mod inspect;
 mod island;
+mod kept;
 mod kinship;
 mod monitor;
 #[cfg(feature = "view")]

@@ -4,6 +4,7 @@ use super::Failure;
 use super::atlas;
 use super::catalogue::Kind;
 use super::config::Config;
+use super::kept::kept;
 use super::subject::Subject;
 use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::generation::Effort;
@@ -22,8 +23,8 @@ pub const SUMMARY_BYTES_MAX: usize = 1 << 20;
 pub struct Summary {
     /// The digest of all final populations: equal for equal seeds and settings.
     pub digest: String,
-    /// The fitness of the champion that is kept, the best ever: the score that it was selected by. The most negative
-    /// number there is if nothing could be scored.
+    /// The fitness of the champion that is kept: the score that it was selected by. The most negative number there is if
+    /// nothing could be scored.
     pub best_fitness: f64,
     /// What the run claims of the same champion: the lower of the means of `validation`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -85,12 +86,11 @@ pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Optio
     let summary = file::read(&dir.summary(), SUMMARY_BYTES_MAX).ok()?;
     let summary: Summary = serde_json::from_slice(&summary).ok()?;
     let islands = final_islands::<P::Gene>(dir, config).ok()?;
-    let champions = champions::<P::Gene>(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
-    let (_, best) = best(&champions).filter(|_| is_sound)?;
-    Some(Summary {
-        best: problem.show(best.individual.fitness),
+    let has_champion = all(&champions::<P::Gene>(dir, config).ok()?).next().is_some();
+    (is_sound && has_champion).then(|| Summary {
+        best: problem.show(Fitness::of_saturated(summary.best_fitness)),
         // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
@@ -108,7 +108,8 @@ pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<
     let islands = final_islands(dir, config)?;
     let reports = write_metrics(dir, config)?;
     let champions = champions(dir, config)?;
-    let best = best(&champions).ok_or_else(|| Failure::failed("no island has a champion"))?;
+    let best = best(problem, &champions);
+    let best = best.ok_or_else(|| Failure::failed("no island has a champion"))?;
     write_champion(dir, problem, &best.1.individual)?;
     atlas::write(dir, config, problem, &islands)?;
     let summary = summarise(dir, config, problem, &islands, best, &reports);
@@ -180,15 +181,17 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, S
     Ok(reports)
 }
 
-/// The champion that is worth most, and its island: of all that each island ever had, the first of equal ones.
-pub fn best<G: Gene>(champions: &[Vec<Champion<G>>]) -> Option<(u32, &Champion<G>)> {
+/// The champion that a run keeps, and its island, of all that each island ever had.
+pub fn best<'a, P: Subject>(
+    problem: &P,
+    champions: &'a [Vec<Champion<P::Gene>>],
+) -> Option<(u32, &'a Champion<P::Gene>)> {
+    kept(problem, all(champions).map(|(island, one)| ((island, one), &one.individual)))
+}
+
+fn all<G>(champions: &[Vec<Champion<G>>]) -> impl Iterator<Item = (u32, &Champion<G>)> {
     let islands = (0..).zip(champions);
-    let all = islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)));
-    all.reduce(
-        |best, next| {
-            if next.1.individual.fitness > best.1.individual.fitness { next } else { best }
-        },
-    )
+    islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)))
 }
 
 /// The lower of the engines' means, if there are any.
@@ -240,8 +243,8 @@ impl Podium {
     /// If they cannot be read.
     pub fn of<G: Gene>(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
         let champions = champions::<G>(dir, config)?;
-        let best = best(&champions).map_or(Fitness::WORST, |(_, best)| best.individual.fitness);
-        Ok(Self { best })
+        let scores = all(&champions).map(|(_, champion)| champion.individual.fitness);
+        Ok(Self { best: scores.max().unwrap_or(Fitness::WORST) })
     }
 
     /// Writes `champion` if it is better than all before it.

@@ -40,8 +40,9 @@ pub struct SettingArgs {
     /// Physics engine: featherstone (our own, ten times as fast) or rapier [default: featherstone]
     #[arg(long)]
     pub engine: Option<Engine>,
-    /// Perturbed trials of each genome: friction, motor strength, first direction, a push and the step differ, so that
-    /// luck and quirks of one world count little; 0 for one trial as it is [default: 8]
+    /// Perturbed trials of each genome, and four times as many of who would be the best: friction, motor strength, first
+    /// direction, a push and the step differ, so that luck and quirks of one world count little; 0 for one trial as it
+    /// is [default: 8]
     #[arg(long, value_name = "K")]
     pub robustness: Option<u32>,
     /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst [default: mean]

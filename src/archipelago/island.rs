@@ -88,7 +88,7 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
     let source = archipelago.source(island);
     let offspring = generation::genesis(problem, &archipelago.strategy, source);
     let Brood { mut population, effort, panicked } =
-        generation::evaluate(problem, offspring, &[], &Hurdles::unjudged());
+        generation::evaluate(problem, offspring, &[], &Hurdles::LAST);
     generation::judge_best(problem, &mut population);
     let births = Births::of(0, &Memory::default(), &population);
     let memory = Memory::first(&population, &archipelago.strategy);

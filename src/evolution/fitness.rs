@@ -41,6 +41,11 @@ impl Fitness {
     pub fn saturated(self) -> f64 {
         self.0.max(f64::MIN)
     }
+
+    /// The fitness that [`Fitness::saturated`] has made a finite number.
+    pub fn of_saturated(number: f64) -> Self {
+        if number > f64::MIN { Self::new(number) } else { Self::WORST }
+    }
 }
 
 impl From<f64> for Fitness {

@@ -1,7 +1,7 @@
 //! How far an evaluation has to go: racing (Maron & Moore 1994), with hurdles that are part of an island's state.
 //!
-//! A score that holds is dear: many trials, and a second engine. Most offspring need none of that to be known as no
-//! better than those who are there. So an evaluation may end early, with an estimate, where the whole score would
+//! A score that holds is dear: many trials, maybe a second engine. Most offspring need none of that to be known as no
+//! better than those who are there, and only who would be the best needs all of it. So an evaluation may end early, with an estimate, where the whole score would
 //! change nothing that matters: who is the best of its island, and so its champion. Who travels gets a whole score then.
 //!
 //! What is above all hurdles has its whole score, which is a pure function of the genome. Hurdles are functions of the
@@ -18,8 +18,8 @@ pub struct Hurdles {
     /// Who is below these after a first, a second and a third look is not tried further: a quarter, half and three
     /// quarters of the residents are worse than the hurdles.
     pub looks: [Fitness; LOOKS],
-    /// Who is not above this is not judged: a resident is better.
-    pub judge: Fitness,
+    /// Who is not above this after that, which the best of the residents is, needs no more to be known as no better.
+    pub best: Fitness,
 }
 
 /// So many looks are taken at a genome before it gets its whole score.
@@ -27,24 +27,10 @@ pub const LOOKS: usize = 3;
 
 impl Hurdles {
     /// None: everything gets its whole score.
-    pub const NONE: Self = Self { looks: [Fitness::WORST; LOOKS], judge: Fitness::WORST };
+    pub const NONE: Self = Self { looks: [Fitness::WORST; LOOKS], best: Fitness::WORST };
 
-    /// Nobody is judged.
-    pub fn unjudged() -> Self {
-        Self { judge: Fitness::HIGHEST, ..Self::NONE }
-    }
-
-    /// Everybody fails at a look.
-    pub fn only(look: usize) -> Self {
-        let mut hurdles = Self::NONE;
-        hurdles.looks[look] = Fitness::HIGHEST;
-        hurdles
-    }
-
-    /// Everybody whose trials come to more than this is judged, and tried no further by a judge who finds less.
-    pub fn judged_above(fitness: Fitness) -> Self {
-        Self { judge: fitness, ..Self::NONE }
-    }
+    /// Nobody can become the best, and everybody gets over all looks.
+    pub const LAST: Self = Self { best: Fitness::HIGHEST, ..Self::NONE };
 
     /// Those of the offspring of some residents.
     ///
@@ -59,7 +45,7 @@ impl Hurdles {
             }),
             _ => [Fitness::WORST; LOOKS],
         };
-        Self { looks, judge: or_none(fitness.last()) }
+        Self { looks, best: or_none(fitness.last()) }
     }
 }
 
@@ -81,18 +67,18 @@ mod tests {
     }
 
     #[test]
-    fn quarters_of_the_residents_fail_at_the_looks_and_none_is_above_the_judges_hurdle() {
+    fn quarters_of_the_residents_fail_at_the_looks_and_none_is_above_the_last_hurdle() {
         let residents = residents(&[3.0, 9.0, 1.0, 7.0, f64::NAN, 5.0, 4.0, 6.0]);
         let hurdles = Hurdles::of(&residents, &Strategy::default());
         let looks = [3.0, 5.0, 7.0].map(Fitness::new);
-        assert_eq!(hurdles, Hurdles { looks, judge: Fitness::new(9.0) });
+        assert_eq!(hurdles, Hurdles { looks, best: Fitness::new(9.0) });
     }
 
     #[test]
-    fn where_residents_stay_no_look_decides_and_only_a_champion_is_judged() {
+    fn where_residents_stay_no_look_decides() {
         let strategy = Strategy { survival: Survival::Crowding, ..Strategy::default() };
         let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), &strategy);
-        assert_eq!(hurdles, Hurdles::judged_above(Fitness::new(9.0)));
+        assert_eq!(hurdles, Hurdles { best: Fitness::new(9.0), ..Hurdles::NONE });
         assert_eq!(Hurdles::of(&residents(&[]), &strategy), Hurdles::NONE);
     }
 }

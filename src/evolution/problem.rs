@@ -1,7 +1,7 @@
 //! What is to be solved.
 
 use super::fitness::{Evaluation, Fitness};
-use super::hurdles::{Hurdles, LOOKS};
+use super::hurdles::Hurdles;
 use super::sharing;
 use super::variation::sequences::Layout;
 use super::variation::{self, Variation};
@@ -82,24 +82,9 @@ pub trait Problem: Sync + Sized {
         false
     }
 
-    /// All scores that a genome can have on an island: what it gets where it fails at each look, where it is not
-    /// judged, where the judge stops, and its whole score.
+    /// All scores that a genome can have on an island, its estimates and, last, its whole score.
     fn possible_scores(&self, genome: &[Self::Gene]) -> Vec<Fitness> {
-        let score = |hurdles: Hurdles| self.estimate(genome, &hurdles).fitness;
-        let mut scores: Vec<Fitness> = (0..LOOKS).map(|look| score(Hurdles::only(look))).collect();
-        // The judge stops where what it finds is lower than ever before.
-        let mut lowest = score(Hurdles::unjudged());
-        scores.push(lowest);
-        loop {
-            let found = score(Hurdles::judged_above(lowest.just_below()));
-            if found >= lowest {
-                break;
-            }
-            scores.push(found);
-            lowest = found;
-        }
-        scores.push(score(Hurdles::NONE));
-        scores
+        vec![self.evaluate(genome).fitness]
     }
 
     /// What a champion is worth on trials that it was not selected on, where there are such. It decides nothing.

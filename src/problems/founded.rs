@@ -82,6 +82,10 @@ impl<P: Problem> Problem for Founded<P> {
         self.problem.has_estimates()
     }
 
+    fn possible_scores(&self, genome: &[P::Gene]) -> Vec<Fitness> {
+        self.problem.possible_scores(genome)
+    }
+
     fn validate(&self, genome: &[P::Gene]) -> Option<Fitness> {
         self.problem.validate(genome)
     }

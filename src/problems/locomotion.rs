@@ -59,7 +59,7 @@ impl Locomotion {
 
     /// One trial as it is in an engine, which nobody judges.
     pub const fn single(engine: Engine) -> Self {
-        Self { engine, robustness: Robustness::NONE, judged: false, ..Self::DEFAULT }
+        Self { engine, robustness: Robustness::NONE, ..Self::DEFAULT }
     }
 
     /// How bodies are tried.
@@ -97,9 +97,9 @@ impl Locomotion {
 
     /// Evaluates a body in another trial than the task's, or in its perturbations, and films it.
     pub fn film_trial(&self, creature: &Creature, trial: &Trial) -> (Evaluation, Trajectory) {
-        let (_, trajectory) =
-            simulation::film(creature, &self.typical(creature, trial), self.engine);
-        (evaluation(self.score(creature, trial, &Hurdles::NONE)), trajectory)
+        let (score, typical) = self.typical(creature, trial);
+        let (_, trajectory) = simulation::film(creature, &typical, self.engine);
+        (evaluation(score), trajectory)
     }
 
     /// Evaluates a body, as [`Problem::evaluate`] does with the genome that it was grown from.
@@ -108,10 +108,10 @@ impl Locomotion {
         evaluation(catch_unwind(AssertUnwindSafe(score)).unwrap_or(Err(Outcome::Panicked)))
     }
 
-    /// Simulation steps of a genome's evaluation, of trials that run to their end; of settling, which lasts as long as
-    /// it takes, one round.
+    /// Simulation steps of a genome's usual trials, if they run to their end; of settling, which lasts as long as it
+    /// takes, one round.
     pub fn steps(&self) -> u64 {
-        let trials = self.trials(self.trial());
+        let trials = self.trials(self.trial()).take(self.robustness.trials.max(1) as usize);
         trials.map(|trial| u64::from(trial.steps())).sum()
     }
 
@@ -197,7 +197,13 @@ impl Problem for Locomotion {
     }
 
     fn has_estimates(&self) -> bool {
-        self.judged || self.robustness.trials > 1
+        self.judged || self.robustness.is_wanted()
+    }
+
+    fn possible_scores(&self, genome: &[Gene]) -> Vec<Fitness> {
+        let possible = || self.express(genome).map(|creature| self.possible(&creature));
+        let tried = catch_unwind(AssertUnwindSafe(possible));
+        tried.ok().and_then(Result::ok).unwrap_or_else(|| vec![Fitness::WORST])
     }
 
     /// The mean of half of the usual fresh trials, in our own engine, which takes a tenth of rapier's time.

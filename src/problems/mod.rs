@@ -2,8 +2,8 @@
 //!
 //! [`locomotion`] evolves creatures that move: [`task`] says what they have to do, [`progress`] how far one got,
 //! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
-//! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`], and [`bits`] strings of ones and zeros,
-//! both of a [`fixed`] length. [`founded`] begins with given genomes.
+//! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`],
+//! and [`bits`] strings of ones and zeros, both of a [`fixed`] length. [`founded`] begins with given genomes.
 //!
 //! # A problem of one's own
 //!

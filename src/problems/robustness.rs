@@ -7,10 +7,14 @@ use crate::choice;
 use crate::simulation::Trial;
 use serde::{Deserialize, Serialize};
 
+/// Who may be the best of its island has so many times as many trials as others.
+pub const BEST_TIMES: u32 = 4;
+
 /// How a genome is tried more than once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Robustness {
-    /// So many perturbed trials; 0 for one that is not perturbed.
+    /// So many perturbed trials, and [`BEST_TIMES`] as many of who may be the best of its island; 0 for one that is not
+    /// perturbed.
     pub trials: u32,
     /// What their scores come to.
     pub by: RobustBy,
@@ -89,13 +93,18 @@ impl Robustness {
         self.trials > 0
     }
 
-    /// The trials that are scored, in their order.
+    /// The trials that are scored, in their order: the usual ones, then those of who may be the best of its island.
     pub fn trials(self, usual: Trial) -> impl Iterator<Item = Trial> {
         let perturbed = move |index| match self.is_wanted() {
             true => usual.perturbed(index),
             false => usual,
         };
-        (0..self.trials.max(1)).map(perturbed)
+        (0..self.trials_of_the_best().max(1)).map(perturbed)
+    }
+
+    /// So many perturbed trials has who may be the best. The highest score of many is the luckiest, too.
+    pub fn trials_of_the_best(self) -> u32 {
+        BEST_TIMES * self.trials
     }
 }
 

@@ -28,20 +28,73 @@ impl Locomotion {
         usual: &Trial,
         hurdles: &Hurdles,
     ) -> Result<f64, Outcome> {
-        let by = self.robustness.by;
+        self.score_knowing(&mut Vec::new(), creature, usual, hurdles)
+    }
+
+    /// The same, where the outcomes of some first trials are known. More of them are afterwards.
+    fn score_knowing(
+        &self,
+        known: &mut Vec<Result<f64, Outcome>>,
+        creature: &Creature,
+        usual: &Trial,
+        hurdles: &Hurdles,
+    ) -> Result<f64, Outcome> {
         let mut scores = Vec::new();
-        for trial in self.trials(*usual) {
-            let look = LOOK_TRIALS.iter().position(|&trials| trials == scores.len());
-            if look.is_some_and(|look| Fitness::new(by.of(&scores)) < hurdles.looks[look]) {
-                return Ok(by.of(&scores));
+        for (index, trial) in self.trials(*usual).enumerate() {
+            if self.fails(&scores, hurdles) {
+                return Ok(self.robustness.by.of(&scores));
             }
-            scores.push(self.try_out(creature, &trial, self.engine)?);
+            if index == known.len() {
+                known.push(self.try_out(creature, &trial, self.engine));
+            }
+            scores.push(known[index]?);
         }
-        let score = by.of(&scores);
-        match self.judged && Fitness::new(score) > hurdles.judge {
-            true => self.judge(creature, usual, score, hurdles.judge),
+        let score = self.robustness.by.of(&scores);
+        match self.judged && Fitness::new(score) > hurdles.best {
+            true => self.judge(creature, usual, score, hurdles.best),
             false => Ok(score),
         }
+    }
+
+    /// Whether a body whose trials came to some scores so far is tried no further.
+    fn fails(&self, scores: &[f64], hurdles: &Hurdles) -> bool {
+        let so_far = || Fitness::new(self.robustness.by.of(scores));
+        match (scores.len(), self.robustness.trials as usize) {
+            (0, _) => false,
+            (tried, usual) if tried < usual => {
+                let look = LOOK_TRIALS.iter().position(|&trials| trials == tried);
+                look.is_some_and(|look| so_far() < hurdles.looks[look])
+            }
+            (tried, usual) => tried.is_multiple_of(usual) && so_far() <= hurdles.best,
+        }
+    }
+
+    /// All scores that a body can have where it fails at some hurdle, and its whole score, which is the last.
+    pub(super) fn possible(&self, creature: &Creature) -> Vec<Fitness> {
+        let (usual, mut known) = (self.trial(), Vec::new());
+        let mut score = |hurdles: Hurdles| {
+            let score = self.score_knowing(&mut known, creature, &usual, &hurdles);
+            score.map_or(Fitness::WORST, Fitness::new)
+        };
+        let mut possible = Vec::new();
+        for look in 0..LOOKS {
+            let mut hurdles = Hurdles::NONE;
+            hurdles.looks[look] = Fitness::HIGHEST;
+            possible.push(score(hurdles));
+        }
+        // After the usual trials who is not the best fails where what its trials come to is lower than ever before.
+        let mut lowest = score(Hurdles::LAST);
+        possible.push(lowest);
+        loop {
+            let found = score(Hurdles { best: lowest.just_below(), ..Hurdles::NONE });
+            if found >= lowest {
+                break;
+            }
+            possible.push(found);
+            lowest = found;
+        }
+        possible.push(score(Hurdles::NONE));
+        possible
     }
 
     /// A body's score if the other engine confirms it in perturbations of its own, else what it gets there, as far as
@@ -55,7 +108,7 @@ impl Locomotion {
     ) -> Result<f64, Outcome> {
         let trials = match self.robustness.trials {
             0 => vec![*usual],
-            first => (first..first + JUDGE_TRIALS).map(|index| usual.perturbed(index)).collect(),
+            _ => (0..JUDGE_TRIALS).map(|index| usual.perturbed(self.unscored() + index)).collect(),
         };
         let mut judged = score;
         let mut scores = Vec::new();
@@ -69,20 +122,35 @@ impl Locomotion {
         }
         Ok(judged)
     }
-
-    /// That of a body's trials whose score is nearest to what all of them come to, or the first that fails.
-    pub(super) fn typical(&self, creature: &Creature, usual: &Trial) -> Trial {
-        let mut scores = Vec::new();
-        for trial in self.trials(*usual) {
-            match self.try_out(creature, &trial, self.engine) {
-                Ok(score) => scores.push(score),
-                Err(_) => return trial,
-            }
-        }
+    /// The score of a body, and that of its trials whose score is nearest to what all of them come to, or the first that
+    /// fails.
+    pub(super) fn typical(
+        &self,
+        creature: &Creature,
+        usual: &Trial,
+    ) -> (Result<f64, Outcome>, Trial) {
+        let mut tried = Vec::new();
+        let score = self.score_knowing(&mut tried, creature, usual, &Hurdles::NONE);
+        let scores: Vec<f64> = tried.iter().copied().flatten().collect();
         let all = self.robustness.by.of(&scores);
-        let tried = self.trials(*usual).zip(&scores);
-        let nearest = tried.min_by(|(_, a), (_, b)| (*a - all).abs().total_cmp(&(*b - all).abs()));
-        nearest.map_or(*usual, |(trial, _)| trial)
+        let far = |result: &Result<f64, Outcome>| result.map_or(-1.0, |own| (own - all).abs());
+        let trials = self.trials(*usual).zip(&tried);
+        let nearest = trials.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
+        (score, nearest.map_or(*usual, |(trial, _)| trial))
+    }
+
+    /// What a body gets in the other engine, in as many perturbations as its score has and none of the same ones. A
+    /// trial that blew up counts as a score of 0.
+    pub fn elsewhere(&self, creature: &Creature) -> Fitness {
+        let (engine, trials) = (self.engine.other(), self.robustness.trials);
+        let results = self.try_perturbed(creature, engine, self.unscored(), trials);
+        let scores: Vec<f64> = results.into_iter().map(|result| result.unwrap_or(0.0)).collect();
+        Fitness::new(self.robustness.by.of(&scores))
+    }
+
+    /// The first perturbation that no score comes from.
+    fn unscored(&self) -> u32 {
+        self.robustness.trials_of_the_best()
     }
 
     /// What a body gets in one trial.
@@ -112,12 +180,22 @@ impl Locomotion {
 
     /// Tries a body in so many fresh perturbations in an engine, on the threads of the current rayon pool.
     pub fn validate_body(&self, creature: &Creature, engine: Engine, trials: u32) -> Validation {
+        Validation::of(engine, &self.try_perturbed(creature, engine, FRESH, trials))
+    }
+
+    /// What a body gets in so many perturbations from a first one on, on the threads of the current rayon pool.
+    fn try_perturbed(
+        &self,
+        creature: &Creature,
+        engine: Engine,
+        first: u32,
+        trials: u32,
+    ) -> Vec<Result<f64, Outcome>> {
         let usual = self.trial();
-        let results = sharing::dearest_first(&vec![1; trials as usize], |index| {
-            let trial = self.unpushed(usual.perturbed(FRESH + index as u32));
+        sharing::dearest_first(&vec![1; trials as usize], |index| {
+            let trial = self.unpushed(usual.perturbed(first + index as u32));
             let score = || self.try_out(creature, &trial, engine);
             catch_unwind(AssertUnwindSafe(score)).unwrap_or(Err(Outcome::Panicked))
-        });
-        Validation::of(engine, &results)
+        })
     }
 }

@@ -30,12 +30,23 @@ impl Checkpoints {
         let generation = checkpoint.island.generation;
         let path = self.dir.checkpoint(self.island, generation);
         checkpoint::save(&self.dir.partial(), &path, checkpoint)?;
-        let (older, newer): (Vec<u32>, Vec<u32>) = self
-            .generations()?
-            .into_iter()
-            .filter(|&g| g != generation)
-            .partition(|&g| g < generation);
-        for useless in older.into_iter().skip(KEPT - 1).chain(newer) {
+        self.remove(|saved| saved > generation)?;
+        self.remove_older_than(generation)
+    }
+
+    /// Removes all that are older than a whole one but for the newest of them: those that a kill has left over between
+    /// saving and removing.
+    ///
+    /// # Errors
+    /// If they cannot be removed.
+    pub fn remove_older_than(&self, generation: u32) -> Result<(), StoreError> {
+        let older = self.generations()?.into_iter().filter(|&saved| saved < generation);
+        let useless: Vec<u32> = older.skip(KEPT - 1).collect();
+        self.remove(|saved| useless.contains(&saved))
+    }
+
+    fn remove(&self, is_useless: impl Fn(u32) -> bool) -> Result<(), StoreError> {
+        for useless in self.generations()?.into_iter().filter(|&saved| is_useless(saved)) {
             let path = self.dir.checkpoint(self.island, useless);
             std::fs::remove_file(&path).map_err(StoreError::io("remove", &path))?;
         }

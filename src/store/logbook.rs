@@ -75,6 +75,9 @@ impl<G: Gene> Logbook<G> {
             reports: RecordLog::open(&dir.reports(index))?,
         };
         let (island, warnings) = logbook.newest_state(archipelago)?;
+        if let Some(island) = &island {
+            logbook.checkpoints.remove_older_than(island.generation)?;
+        }
         logbook.cut_back_to(island.as_ref().map(|island| island.generation))?;
         Ok(Restored { logbook, island, arrivals: recorded, warnings })
     }

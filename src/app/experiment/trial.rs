@@ -2,11 +2,12 @@
 
 use super::super::catalogue::Visitor;
 use super::super::config::Config;
+use super::super::kept::kept;
 use super::super::result::lowest_mean;
 use super::super::subject::Subject;
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
-use crate::evolution::Fitness;
 use crate::evolution::population::mean_of_pairs;
+use crate::evolution::{Fitness, Gene, Individual};
 use serde::{Deserialize, Serialize};
 
 /// A run that is ended by its evaluations ends as well after so many generations in which there was none: there will
@@ -110,9 +111,9 @@ fn evolve<P: Subject>(
     if stopped {
         return None;
     }
-    let champions = islands.iter().map(|island| &island.champion);
-    let best = champions.clone().max_by_key(|champion| champion.fitness)?;
+    let best = kept(problem, record.champions.iter().map(|champion| (champion, champion)))?;
     let validated = lowest_mean(&problem.fresh(&best.genome, None));
+    let champions = islands.iter().map(|island| &island.champion);
     let genomes: Vec<&[P::Gene]> = champions.map(|champion| champion.genome.as_slice()).collect();
     let apart = mean_of_pairs(&genomes, |a, b| problem.distance(a, b));
     let apart = (genomes.len() > 1).then_some(apart);
@@ -138,8 +139,10 @@ impl Budget {
 }
 
 /// Turns what islands report into a curve.
-struct Record {
+struct Record<G> {
     islands: usize,
+    /// All that each island has had so far.
+    champions: Vec<Individual<G>>,
     /// Of the islands that have done the present generation.
     reports: Vec<Report>,
     evaluations: u64,
@@ -147,10 +150,11 @@ struct Record {
     curve: Vec<Point>,
 }
 
-impl Record {
+impl<G: Gene> Record<G> {
     fn of(islands: u32) -> Self {
         Self {
             islands: islands as usize,
+            champions: Vec::new(),
             reports: Vec::new(),
             evaluations: 0,
             best: Fitness::WORST,
@@ -158,7 +162,8 @@ impl Record {
         }
     }
 
-    fn observe<G>(&mut self, step: &Step<G>) {
+    fn observe(&mut self, step: &Step<G>) {
+        self.champions.extend(step.champion.as_ref().map(|champion| champion.individual.clone()));
         self.best = self.best.max(step.island.champion.fitness);
         self.evaluations += step.report.effort.evaluations;
         self.reports.push(step.report);

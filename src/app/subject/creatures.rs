@@ -46,6 +46,11 @@ impl Subject for Locomotion {
         self.validate_in_each(&creature, trials.unwrap_or(self.fresh_trials()))
     }
 
+    fn tried_once_more(&self, genome: &[Gene]) -> Option<Fitness> {
+        let wanted = self.robustness.trials > 0;
+        wanted.then(|| self.express(genome).map_or(Fitness::WORST, |body| self.elsewhere(&body)))
+    }
+
     fn short(&self, fitness: Fitness) -> String {
         match fitness.finite() {
             Some(score) => format!("{score:.2} {}", self.unit()),

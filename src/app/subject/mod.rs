@@ -47,6 +47,12 @@ pub trait Subject: Problem + Clone + Send {
         Vec::new()
     }
 
+    /// What a genome is worth where nobody was selected: the other engine finds it, in as many trials as the score
+    /// has. None where a score leaves nothing to luck, or none is wanted that does.
+    fn tried_once_more(&self, _genome: &[Self::Gene]) -> Option<Fitness> {
+        None
+    }
+
     /// A fitness as a label has room for.
     fn short(&self, fitness: Fitness) -> String {
         self.show(fitness)

@@ -5,7 +5,7 @@ use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
-use crate::archipelago::{Digest, Island};
+use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::Gene;
 use crate::formats::metrics;
 use crate::store::{RunDir, StoreError, file};
@@ -88,13 +88,22 @@ pub fn check<P: Subject>(
 ) -> (Option<String>, Vec<Check>) {
     let finals = records.finals(terms);
     let digest = finals.map(|finals| Digest::of(finals).to_string());
+    let best = finals.and_then(|_| result::best(problem, &records.champions));
+    let ending = finals.filter(|_| sound).zip(best).map(|(islands, best)| Ending { islands, best });
     let checks = vec![
         check_digest(dir, digest.as_deref(), summary, records.states.len()),
-        check_summary(dir, problem, terms, finals.filter(|_| sound), records, summary),
-        check_champion(dir, problem, terms, records),
+        check_summary(dir, problem, terms, ending, records, summary),
+        check_champion(dir, problem, terms, best.map(|(_, champion)| champion)),
         check_metrics(dir, terms, records, sound),
     ];
     (digest, checks)
+}
+
+/// What a run has come to.
+struct Ending<'a, G> {
+    islands: &'a [Island<G>],
+    /// The champion that it keeps, and its island.
+    best: (u32, &'a Champion<G>),
 }
 
 fn check_digest(dir: &RunDir, found: Option<&str>, summary: &SummaryFile, states: usize) -> Check {
@@ -116,19 +125,18 @@ fn check_summary<P: Subject>(
     dir: &RunDir,
     problem: &P,
     terms: &Terms,
-    finals: Option<&[Island<P::Gene>]>,
+    ending: Option<Ending<P::Gene>>,
     records: &Records<P::Gene>,
     summary: &SummaryFile,
 ) -> Check {
     let mut check = Check::of("summary").checked("summary.json");
-    let best = result::best(&records.champions);
-    match (summary, finals.zip(best)) {
+    match (summary, ending) {
         (SummaryFile::Missing, _) => check.damaged("it is missing"),
         (SummaryFile::Damaged(reason), _) => check.damaged(reason),
         (SummaryFile::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
-        (SummaryFile::Whole(said), Some((finals, best))) => {
+        (SummaryFile::Whole(said), Some(Ending { islands, best })) => {
             let right =
-                result::summarise(dir, terms.config, problem, finals, best, &records.reports);
+                result::summarise(dir, terms.config, problem, islands, best, &records.reports);
             let right = serde_json::to_value(right).expect("a summary is plain data");
             let claims = right.as_object().into_iter().flatten();
             for (key, value) in claims.filter(|(key, _)| !FREE.contains(&key.as_str())) {
@@ -150,12 +158,11 @@ fn check_champion<P: Subject>(
     dir: &RunDir,
     problem: &P,
     terms: &Terms,
-    records: &Records<P::Gene>,
+    best: Option<&Champion<P::Gene>>,
 ) -> Check {
     let files = if P::HAS_BODIES { "champion.csv, .urdf" } else { "champion.csv" };
     let mut check = Check::of("champion").checked(files);
-    let finals = records.finals(terms);
-    let Some((_, champion)) = finals.and_then(|_| result::best(&records.champions)) else {
+    let Some(champion) = best else {
         check.note("not checked: a final population is missing or damaged");
         return check;
     };
