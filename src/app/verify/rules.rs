@@ -338,11 +338,14 @@ impl<'a> Terms<'a> {
             let generation = (epoch as usize + 1) * self.config.migration_interval as usize;
             let best = entries.get(generation).map(|entry| entry.report.statistics.best);
             let sends_the_best = self.config.emigrants == Emigrants::Best;
-            // Where the best may have an estimate, only an elite is known to have none.
+            // Whoever else is sent may turn out to be better than its estimate, or, without elites, worse.
+            let is_right = |first: Fitness, best: Fitness| match self.has_estimates {
+                true => !self.keeps_its_best() || first >= best,
+                false => first == best,
+            };
             if let (Some(best), Some(&first)) = (best, fitness.first())
                 && sends_the_best
-                && (self.keeps_its_best() || !self.has_estimates)
-                && first != best
+                && !is_right(first, best)
             {
                 return wrong(&format!("disagrees with the report of generation {generation}"));
             }
