@@ -145,7 +145,7 @@ fn approximate(ranks: &[usize], first: usize, u: f64) -> f64 {
     let pairs = (first * (ranks.len() - first)) as f64;
     // Each of t equal values adds t² - 1, so that they add t³ - t together.
     let equal = |rank: &usize| ranks.iter().filter(|other| *other == rank).count() as f64;
-    let ties: f64 = ranks.iter().map(|rank| equal(rank).powi(2) - 1.0).sum();
+    let ties: f64 = ranks.iter().map(|rank| equal(rank) * equal(rank) - 1.0).sum();
     let deviation = (pairs / 12.0 * (all + 1.0 - ties / (all * (all - 1.0)))).sqrt();
     let distance = ((u - pairs / 2.0).abs() - 0.5).max(0.0);
     match deviation > 0.0 {

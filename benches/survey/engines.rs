@@ -79,5 +79,5 @@ fn root_path_m(trajectory: &Trajectory) -> f64 {
     let places: Vec<[f32; 3]> =
         trajectory.poses.iter().step_by(every).map(|poses| poses[0].position_m).collect();
     let legs = places.windows(2);
-    legs.map(|leg| f64::from((leg[1][0] - leg[0][0]).hypot(leg[1][1] - leg[0][1]))).sum()
+    legs.map(|leg| f64::from(libm::hypotf(leg[1][0] - leg[0][0], leg[1][1] - leg[0][1]))).sum()
 }

@@ -162,7 +162,7 @@ impl Default for Config {
             islands: 4,
             seed: None,
             algorithm: Algorithm::Ga,
-            generations: 100,
+            generations: 80,
             population: strategy.population,
             problem: Kind::Creatures,
             dimensions: 30,

@@ -1,17 +1,28 @@
 //! The one place that prints, and the one that reads a clock.
 
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// Says something to the user, on standard error. Nobody listening is no reason to fail.
 pub fn say(line: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{line}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", printable(line));
 }
 
 /// Prints a line of the result, on standard output. Nobody reading it is no reason to fail, either.
 pub fn print(line: &str) {
-    let _ = writeln!(std::io::stdout().lock(), "{line}");
+    let _ = writeln!(std::io::stdout().lock(), "{}", printable(line));
+}
+
+/// A text that tells a terminal nothing but where lines end: files may say anything, and some of it is shown.
+fn printable(text: &str) -> Cow<'_, str> {
+    let is_command = |c: char| c.is_control() && !"\n\t".contains(c);
+    if !text.contains(is_command) {
+        return text.into();
+    }
+    let shown = |c: char| if is_command(c) { c.escape_default().collect() } else { c.to_string() };
+    text.chars().map(shown).collect::<String>().into()
 }
 
 /// A path as a shell takes it.
@@ -43,5 +54,16 @@ impl Stopwatch {
     /// The same in seconds.
     pub fn seconds(self) -> f64 {
         self.elapsed().as_secs_f64()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_printed_commands_no_terminal() {
+        assert_eq!(printable("a\tb\nc ±1"), "a\tb\nc ±1");
+        assert_eq!(printable("\u{1b}[2J\u{9b}1\r\u{7}"), "\\u{1b}[2J\\u{9b}1\\r\\u{7}");
     }
 }

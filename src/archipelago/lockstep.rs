@@ -1,8 +1,7 @@
 //! A whole archipelago in one process: the reference that the processes must equal to the last bit.
 
 use super::island::{self, Island, Step};
-use super::topology::Graph;
-use super::{Archipelago, Arrivals, Outbox};
+use super::{Archipelago, Arrivals, Migration, Outbox};
 use crate::evolution::Problem;
 use std::collections::BTreeMap;
 
@@ -29,7 +28,7 @@ pub fn run_until<P: Problem>(
     mut observe: impl FnMut(&Step<P::Gene>),
     mut is_over: impl FnMut(&[Island<P::Gene>]) -> bool,
 ) -> Vec<Island<P::Gene>> {
-    let mut sent = Sent::new();
+    let mut mail = Mail(Sent::new());
     let mut islands: Vec<Island<P::Gene>> = (0..archipelago.islands)
         .map(|index| {
             let step = island::genesis(problem, archipelago, index);
@@ -46,16 +45,35 @@ pub fn run_until<P: Problem>(
         islands = islands
             .into_iter()
             .map(|island| {
-                let immigrants = immigrants(&sent, archipelago, &graph, island.index, generation);
+                let epoch = archipelago.migration.immigration(generation);
+                let immigrants = mail.of(epoch, graph.in_neighbours(island.index));
                 let step = island::step(island, &immigrants, problem, archipelago);
                 observe(&step);
                 outboxes.extend(step.outbox);
                 step.island
             })
             .collect();
-        sent.extend(outboxes.into_iter().map(|outbox| ((outbox.epoch, outbox.island), outbox)));
+        mail.close(generation, &archipelago.migration, outboxes);
     }
     islands
+}
+
+/// The outboxes that have yet to be taken in.
+struct Mail<G>(Sent<G>);
+
+impl<G: Clone> Mail<G> {
+    /// What some islands sent at the end of an epoch.
+    fn of(&self, epoch: Option<u32>, senders: &[u32]) -> Vec<Outbox<G>> {
+        let Some(epoch) = epoch else { return Vec::new() };
+        senders.iter().filter_map(|&sender| self.0.get(&(epoch, sender)).cloned()).collect()
+    }
+
+    /// Adds what was sent at the end of a generation, and forgets what all have taken in by then.
+    fn close(&mut self, generation: u32, migration: &Migration, outboxes: Vec<Outbox<G>>) {
+        self.0.extend(outboxes.into_iter().map(|outbox| ((outbox.epoch, outbox.island), outbox)));
+        let next = migration.next_immigration(generation);
+        self.0.retain(|&(epoch, _), _| epoch >= next);
+    }
 }
 
 /// A record in which an island has taken in what nobody can have sent by then.
@@ -129,14 +147,29 @@ fn next<P: Problem>(
     Some(island::step(place.take()?, &immigrants, problem, archipelago))
 }
 
-fn immigrants<G: Clone>(
-    sent: &Sent<G>,
-    archipelago: &Archipelago,
-    graph: &Graph,
-    island: u32,
-    generation: u32,
-) -> Vec<Outbox<G>> {
-    let Some(epoch) = archipelago.migration.immigration(generation) else { return Vec::new() };
-    let sources = graph.in_neighbours(island);
-    sources.iter().filter_map(|&source| sent.get(&(epoch, source)).cloned()).collect()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mail_is_kept_until_it_is_taken_in_and_no_longer() {
+        for (interval, lag) in [(1, 0), (1, 1), (3, 0), (3, 2), (5, 4)] {
+            let migration = Migration { interval, lag, ..Migration::default() };
+            let mut mail: Mail<f64> = Mail(Sent::new());
+            let (mut taken, mut sent) = (Vec::new(), Vec::new());
+            for generation in 1..100 {
+                let found = mail.of(migration.immigration(generation), &[1, 0]);
+                taken.extend(found.iter().map(|outbox| (outbox.epoch, outbox.island)));
+                let epoch = migration.emigration(generation);
+                let outbox = |epoch, island| Outbox { island, epoch, migrants: Vec::new() };
+                let outboxes =
+                    epoch.map_or(Vec::new(), |epoch| vec![outbox(epoch, 1), outbox(epoch, 0)]);
+                sent.extend(outboxes.iter().map(|outbox| (outbox.epoch, outbox.island)));
+                mail.close(generation, &migration, outboxes);
+                assert!(mail.0.len() <= 2 * (1 + lag as usize), "{migration:?}");
+            }
+            assert_eq!(taken, sent[..taken.len()]);
+            assert!(sent.len() - taken.len() <= 2 * (1 + lag as usize), "{migration:?}");
+        }
+    }
 }

@@ -232,7 +232,8 @@ fn rank_weights(fitness: &[Fitness], pressure: f64) -> Vec<f64> {
 fn fittest(fitness: &[Fitness], fraction: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..fitness.len()).collect();
     order.sort_by_key(|&i| Reverse(fitness[i]));
-    let kept = (fitness.len() as f64 * fraction).ceil() as usize;
+    // 7 % of 100 are 7, though the product is a little more.
+    let kept = (fitness.len() as f64 * fraction - 1e-9).ceil() as usize;
     order.truncate(kept.clamp(1, fitness.len()));
     let best_failed = fitness[order[0]].finite().is_none();
     order.retain(|&i| best_failed || fitness[i].finite().is_some());
@@ -307,6 +308,16 @@ mod tests {
     fn truncation_is_uniform_among_the_best_and_knows_nobody_else() {
         let shares = shares(Selection::Truncation { fraction: 0.5 }, &[4.0, 1.0, 3.0, 2.0]);
         assert_close(&shares, &[0.5, 0.0, 0.5, 0.0]);
+    }
+
+    #[test]
+    fn truncation_keeps_the_share_that_it_names() {
+        let hundred: Vec<Fitness> = (0..100).map(f64::from).map(Fitness::new).collect();
+        for percent in 1..=100 {
+            assert_eq!(fittest(&hundred, f64::from(percent) / 100.0).len(), percent as usize);
+        }
+        assert_eq!(fittest(&hundred, 0.071).len(), 8);
+        assert_eq!(fittest(&hundred[..3], 0.001).len(), 1);
     }
 
     #[test]

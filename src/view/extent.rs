@@ -2,6 +2,7 @@
 
 use crate::creature::morphology::Shape;
 use crate::simulation::trajectory::Pose;
+use libm::hypotf;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 /// The camera forgets movement that is shorter than this.
@@ -50,7 +51,7 @@ pub fn calm(times_s: &[f64], points: &[[f32; 2]]) -> Vec<[f32; 2]> {
 pub fn reach(shapes: &[Shape], poses: &[Pose], from: [f32; 3]) -> f32 {
     let far = |(shape, pose): (&Shape, &Pose)| {
         let [x, y, z] = std::array::from_fn(|axis| pose.position_m[axis] - from[axis]);
-        x.hypot(y).hypot(z) + shape.farthest_m() as f32
+        hypotf(hypotf(x, y), z) + shape.farthest_m() as f32
     };
     shapes.iter().zip(poses).map(far).fold(0.0, f32::max)
 }

@@ -5,6 +5,7 @@ use super::clip::Take;
 use super::extent::every;
 use super::film::Screening;
 use super::{ViewError, palette};
+use libm::hypotf;
 use rerun::{RecordingStream, Scalars, SeriesLines};
 
 /// Points per second of a curve.
@@ -49,12 +50,12 @@ pub(super) fn show(
     let picks: Vec<usize> = picks.into_iter().filter(|&pick| times_s[pick] >= from_s).collect();
     let way = |a: usize, b: usize| {
         let ([x, y], [u, v]) = (take.centres[a], take.centres[b]);
-        f64::from((u - x).hypot(v - y))
+        f64::from(hypotf(u - x, v - y))
     };
     let [from_x, from_y] = take.heading.begins();
     let distances = picks.iter().map(|&pick| {
         let [x, y] = take.centres[pick];
-        f64::from((x - from_x).hypot(y - from_y))
+        f64::from(hypotf(x - from_x, y - from_y))
     });
     let speeds = (0..picks.len()).map(|i| {
         let (a, b) =

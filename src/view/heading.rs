@@ -3,6 +3,7 @@
 use super::extent::middle;
 use crate::creature::{Link, Morphology};
 use crate::simulation::trajectory::{Pose, Trajectory};
+use libm::hypotf;
 use nalgebra::{UnitQuaternion, Vector3};
 use rerun::{Quaternion, Transform3D};
 
@@ -30,7 +31,7 @@ impl Heading {
             return Self { start: [0.0; 2], cos: 1.0, sin: 0.0, begins: start };
         }
         let [x, y] = [end[0] - start[0], end[1] - start[1]];
-        let way = x.hypot(y);
+        let way = hypotf(x, y);
         let (cos, sin) = if way < NOWHERE_M { (1.0, 0.0) } else { (x / way, y / way) };
         Self { start, cos, sin, begins: [0.0; 2] }
     }

@@ -4,6 +4,7 @@ use super::ViewError;
 use super::card::RunCard;
 use super::scenery::{LANE_AHEAD_M, Track};
 use crate::simulation::{Ground, Terrain};
+use libm::{cosf, log2f, sinf};
 use nalgebra::{Matrix3, Vector3};
 use rerun::external::re_sdk_types::blueprint::archetypes::EyeControls3D;
 use rerun::{RecordingStream, Transform3D};
@@ -32,9 +33,10 @@ pub fn eye(card: &RunCard) -> EyeControls3D {
 
 /// An eye that sees all lanes of a track from its right, a little ahead; the more lanes, the more from above.
 fn marshal(track: Track) -> EyeControls3D {
-    let many = ((track.lanes.max(1) as f32).log2() / 4.0).min(1.0);
+    let many = (log2f(track.lanes.max(1) as f32) / 4.0).min(1.0);
     let [ahead, above] = [22.0_f32.to_radians(), (26.0 + 30.0 * many).to_radians()];
-    let look = Vector3::new(-ahead.sin() * above.cos(), ahead.cos() * above.cos(), -above.sin());
+    let level = cosf(above);
+    let look = Vector3::new(-sinf(ahead) * level, cosf(ahead) * level, -sinf(above));
     let [position, target] = fit(look, &corners(track));
     EyeControls3D::new()
         .with_position(<[f32; 3]>::from(position))

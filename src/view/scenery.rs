@@ -4,6 +4,7 @@ use super::card::{Program, RunCard};
 use super::ruler::Ruler;
 use super::{ViewError, figures, landscape, palette, state};
 use crate::simulation::{Ground, Terrain};
+use libm::{cosf, hypotf, sinf};
 use rerun::components::InterpolationMode;
 use rerun::{
     GraphEdges, GraphNodes, Mesh3D, RecordingStream, SeriesLines, TextDocument, Transform3D,
@@ -70,7 +71,7 @@ fn stage(rec: &RecordingStream, track: Track, index: u32, hue: u32) -> Result<()
     rec.log_static(path.as_str(), &offset)?;
 
     let round = |x: f32, y: f32| {
-        let far = x.hypot(y) / FLOOR_M as f32;
+        let far = hypotf(x, y) / FLOOR_M as f32;
         1.0 - ((far - 0.4) / 0.6).clamp(0.0, 1.0)
     };
     let floor = checker(hue, -FLOOR_M..FLOOR_M, -(FLOOR_M as f32), 2 * FLOOR_M, round);
@@ -212,7 +213,7 @@ fn topology(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
         let angle = TAU * island as f32 / card.lane_count() as f32;
         // Wider than high, as its place on the screen, and with room for the names.
         let size = (card.lane_count() as f32 / 8.0).max(1.0);
-        [105.0 * size * angle.sin(), -75.0 * size * angle.cos()]
+        [105.0 * size * sinf(angle), -75.0 * size * cosf(angle)]
     };
     let nodes = GraphNodes::new(islands.clone().map(name))
         .with_positions(islands.clone().map(place))

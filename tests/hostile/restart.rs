@@ -241,6 +241,34 @@ fn a_run_directory_that_is_a_pipe_is_not_waited_for() {
     assert!(dir.is_under_way().is_err());
 }
 
+#[test]
+fn a_run_whose_champions_are_a_pipe_is_not_waited_for() {
+    let world = World::new();
+    world.digest("run", &format!("--n 1 --seed 3 --no-monitor {TINY}"));
+    let champions = world.path("run/champions");
+    fs::remove_dir_all(&champions).unwrap();
+    rustix::fs::mkfifoat(rustix::fs::CWD, &champions, rustix::fs::Mode::RWXU).unwrap();
+    let monitor = world.start("monitor run");
+    until("the monitor has given up", || !monitor.is_alive());
+    let ending = monitor.wait();
+    assert_eq!(ending.code, Some(1), "{ending:?}");
+    assert!(ending.stderr.contains("run/champions"), "{ending:?}");
+}
+
+#[test]
+fn what_a_checkpoint_says_commands_no_terminal() {
+    let world = World::new();
+    world.digest("run", &format!("--n 1 --seed 3 --no-monitor {TINY}"));
+    let dir = RunDir::at(world.path("run"));
+    let path = dir.checkpoint(0, 3);
+    let mut forged = checkpoint::load::<Gene>(&path).unwrap();
+    forged.settings.push_str("\"\\u001b]0;owned\\u0007\" = 1\n");
+    checkpoint::save(&dir.partial(), &path, &forged).unwrap();
+    let said = world.islands("resume run --generations 4").stderr;
+    assert!(said.contains("owned is 1"), "{said}");
+    assert!(!said.contains(|c: char| c.is_control() && c != '\n'), "{said:?}");
+}
+
 /// As a new run makes its folder.
 fn create(dir: &RunDir, islands: u32) -> Result<Claim, StoreError> {
     let claim = dir.create()?;

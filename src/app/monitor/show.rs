@@ -10,7 +10,7 @@ use super::super::subject::Subject;
 use super::super::{result, viewer};
 use super::cinema::Cinema;
 use super::logs::Logs;
-use crate::store::RunDir;
+use crate::store::{RunDir, file};
 use crate::view::Live;
 use std::fs::{File, TryLockError};
 use std::time::Duration;
@@ -100,7 +100,7 @@ fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, F
     let mut folder = dir.champions(0);
     folder.pop();
     let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
-    let file = File::open(&folder).map_err(failed)?;
+    let file = file::open_folder(&folder)?;
     loop {
         match file.try_lock() {
             Ok(()) => return Ok(Some(file)),

@@ -79,7 +79,7 @@ pub struct ExactPose {
 /// # Errors
 /// The first thing that is wrong.
 pub fn robot(document: &Document) -> Result<Robot, UrdfError> {
-    let root = document.root_element();
+    let (root, lines) = (document.root_element(), Lines::of(document));
     if root.tag_name().name() != "robot" {
         return Err(UrdfError::Root(shortened(root.tag_name().name())));
     }
@@ -90,9 +90,9 @@ pub fn robot(document: &Document) -> Result<Robot, UrdfError> {
             _ if node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro")) => {
                 return Err(unsupported(&node, "xacro", "expand the file with xacro first"));
             }
-            "link" => robot.links.push(link(&node)?),
-            "joint" => robot.joints.push(joint(&node)?),
-            EXTENSION => robot.extension = Some(extension(&node)?),
+            "link" => robot.links.push(link(&node, &lines)?),
+            "joint" => robot.joints.push(joint(&node, &lines)?),
+            EXTENSION => robot.extension = Some(extension(&node, &lines)?),
             _ => {}
         }
         if robot.links.len().max(robot.joints.len()) > LINKS_MAX {
@@ -102,7 +102,7 @@ pub fn robot(document: &Document) -> Result<Robot, UrdfError> {
     Ok(robot)
 }
 
-fn link(node: &Node) -> Result<LinkElement, UrdfError> {
+fn link(node: &Node, lines: &Lines) -> Result<LinkElement, UrdfError> {
     let of = |kind: &'static str| -> Result<Vec<_>, UrdfError> {
         let solids = node.children().filter(|child| child.has_tag_name(kind));
         solids.map(|solid| Ok((origin(&solid)?, shape(&solid)?))).collect()
@@ -111,7 +111,7 @@ fn link(node: &Node) -> Result<LinkElement, UrdfError> {
     let only_visual = touching.is_empty();
     Ok(LinkElement {
         name: attribute(node, "name")?.to_owned(),
-        line: line(node),
+        line: lines.begun_at(node),
         inertial: child(node, "inertial").map(|inertial| self::inertial(&inertial)).transpose()?,
         // What is only to be seen may be a mesh, as long as there is something else to touch with.
         solids: if only_visual { of("visual")? } else { touching },
@@ -163,7 +163,7 @@ fn shape(solid: &Node) -> Result<Shape, UrdfError> {
     }
 }
 
-fn joint(node: &Node) -> Result<JointElement, UrdfError> {
+fn joint(node: &Node, lines: &Lines) -> Result<JointElement, UrdfError> {
     let kind = attribute(node, "type")?;
     let of = |tag, name| -> Result<String, UrdfError> {
         let end = child(node, tag).ok_or_else(|| missing(node, tag))?;
@@ -179,7 +179,7 @@ fn joint(node: &Node) -> Result<JointElement, UrdfError> {
     }
     Ok(JointElement {
         name: attribute(node, "name")?.to_owned(),
-        line: line(node),
+        line: lines.begun_at(node),
         kind: match kind {
             "fixed" => JointKind::Fixed,
             "revolute" | "continuous" => JointKind::Revolute(axis(node)?),
@@ -209,7 +209,7 @@ fn axis(joint: &Node) -> Result<Vector3<f64>, UrdfError> {
     unit.ok_or_else(|| wrong(&node, "xyz", "a direction"))
 }
 
-fn extension(node: &Node) -> Result<Extension, UrdfError> {
+fn extension(node: &Node, lines: &Lines) -> Result<Extension, UrdfError> {
     let elements = |name| node.children().filter(move |child| child.has_tag_name(name));
     let [period_s] = numbers(node, "control-period", None)?;
     if !(1e-3..=10.0).contains(&period_s) {
@@ -219,17 +219,17 @@ fn extension(node: &Node) -> Result<Extension, UrdfError> {
     Ok(Extension {
         period_s,
         root_rotation: root.map(|root| quaternion(&root, "rotation")).transpose()?,
-        waves: elements("motor").map(|motor| wave(&motor)).collect::<Result<_, _>>()?,
+        waves: elements("motor").map(|motor| wave(&motor, lines)).collect::<Result<_, _>>()?,
         poses: elements("pose").map(|pose| exact_pose(&pose)).collect::<Result<_, _>>()?,
     })
 }
 
-fn wave(node: &Node) -> Result<Wave, UrdfError> {
+fn wave(node: &Node, lines: &Lines) -> Result<Wave, UrdfError> {
     let number = |name| numbers(node, name, None).map(|[number]| number);
     let waveform = attribute(node, "waveform")?.parse();
     Ok(Wave {
         joint: attribute(node, "joint")?.to_owned(),
-        line: line(node),
+        line: lines.begun_at(node),
         waveform: waveform.map_err(|_| wrong(node, "waveform", "sine, pulse or ramp"))?,
         amplitude_rad_s: number("amplitude")?,
         phase_start_rad: number("phase-start")?,
@@ -328,6 +328,22 @@ fn attribute<'a>(node: &Node<'a, '_>, name: &'static str) -> Result<&'a str, Urd
     node.attribute(name).ok_or_else(|| missing(node, name))
 }
 
+/// Where the lines of a document begin, in bytes. To count them anew for each element would take the square of its length.
+struct Lines(Vec<usize>);
+
+impl Lines {
+    fn of(document: &Document) -> Self {
+        let ends = document.input_text().bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
+        Self(std::iter::once(0).chain(ends.map(|(end, _)| end + 1)).collect())
+    }
+
+    /// The line that an element begins in, from 1.
+    fn begun_at(&self, node: &Node) -> u32 {
+        self.0.partition_point(|&begin| begin <= node.range().start) as u32
+    }
+}
+
+/// The same for one element, which is wrong.
 fn line(node: &Node) -> u32 {
     node.document().text_pos_at(node.range().start).row
 }

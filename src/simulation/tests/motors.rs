@@ -58,7 +58,8 @@ fn writhe(engine: Engine, steps_per_s: u32) -> (f64, Vec<UnitQuaternion<f64>>) {
             lab.step();
             for (part, (after, before)) in (1..).zip(bends(&lab).iter().zip(before)) {
                 let turn_rad = (after * before.inverse()).scaled_axis().dot(&axis(part));
-                squares += (turn_rad / lab.step_s() - target_rad_s(part, update)).powi(2);
+                let error_rad_s = turn_rad / lab.step_s() - target_rad_s(part, update);
+                squares += error_rad_s * error_rad_s;
                 count += 1.0;
             }
         }
