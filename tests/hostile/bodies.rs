@@ -1,11 +1,12 @@
 //! What must hold of any bytes whatever, a function a kind of input. The suite feeds them seeded inputs,
-//! `tests/fuzz` whatever finds new ways through the program.
+//! `tests/fuzz` whatever finds new ways through the program. Each says whether the input was accepted: where all of them
+//! are refused, nothing was tried.
 
 use super::pieces::{self, Sum, archipelago};
 use super::wire;
 use islands::app::config::Config;
 use islands::archipelago::arrivals::check_record;
-use islands::archipelago::{Arrivals, Champion, Outbox, island};
+use islands::archipelago::{Arrivals, Births, Champion, Outbox, island};
 use islands::creature::{Gene, Profile, express};
 use islands::evolution::{self, Individual};
 use islands::formats::{genome_csv, metrics, urdf};
@@ -19,8 +20,9 @@ use std::fs;
 use std::path::Path;
 
 /// A checkpoint: the data is the file, and what the file's checksum makes look whole.
-pub fn checkpoint(data: &[u8]) {
+pub fn checkpoint(data: &[u8]) -> bool {
     let path = Path::new("any.ckpt");
+    let mut accepted = false;
     for bytes in [data, &pieces::sealed_checkpoint(data)] {
         let Ok(found) = checkpoint::from_bytes::<Gene>(bytes, path) else { continue };
         let again = checkpoint::to_bytes(&found);
@@ -28,17 +30,21 @@ pub fn checkpoint(data: &[u8]) {
         // No fitness is NaN, but a gene may be: bytes are compared.
         let found = checkpoint::from_bytes::<Gene>(&again, path).expect("we wrote it");
         assert_eq!(checkpoint::to_bytes(&found), again);
+        accepted = true;
     }
+    accepted
 }
 
 /// The logs of an island: the data is the file, and a record of each log.
-pub fn record_logs(data: &[u8]) {
+pub fn record_logs(data: &[u8]) -> bool {
     let folder = pieces::folder();
+    let mut accepted = false;
     for bytes in [data, &pieces::sealed_records(data)] {
         let path = folder.path().join("log");
         fs::write(&path, bytes).expect("it is writable");
         is_sound::<Champion<Gene>>(&path);
         is_sound::<Outbox<Gene>>(&path);
+        is_sound::<Births>(&path);
         is_sound::<Arrivals>(&path);
         if let Ok(contents) = RecordLog::<Arrivals>::read(&path)
             && let Err(reason) = check_record(&contents.records, &archipelago(), 0)
@@ -56,8 +62,10 @@ pub fn record_logs(data: &[u8]) {
         for Entry { report, seconds } in contents.into_iter().flat_map(|it| it.records) {
             let row = metrics::Row::new(&report, seconds);
             assert!(row.failures <= row.evaluations);
+            accepted = true;
         }
     }
+    accepted
 }
 
 /// Reads the log in every way, which must agree; how many records it has.
@@ -81,10 +89,10 @@ fn is_sound<T: Serialize + DeserializeOwned>(path: &Path) -> usize {
 }
 
 /// A genome.
-pub fn genome_csv(data: &[u8]) {
+pub fn genome_csv(data: &[u8]) -> bool {
     let read = match genome_csv::read(data) {
         Ok(read) => read,
-        Err(error) => return is_one_sentence(&error.to_string()),
+        Err(error) => return refused(&error.to_string()),
     };
     assert!(is_valid(&read.genome));
     let mut written = Vec::new();
@@ -96,14 +104,15 @@ pub fn genome_csv(data: &[u8]) {
         let creature = express(&read.genome, profile, 16);
         assert!(creature.is_ok_and(|it| it.morphology.links.len() <= 16) || !profile.is_cut());
     }
+    true
 }
 
 /// A body.
-pub fn urdf(data: &[u8]) {
-    let Ok(text) = str::from_utf8(data) else { return };
+pub fn urdf(data: &[u8]) -> bool {
+    let Ok(text) = str::from_utf8(data) else { return false };
     let creature = match urdf::read(text) {
         Ok(body) => body.creature,
-        Err(error) => return is_one_sentence(&error.to_string()),
+        Err(error) => return refused(&error.to_string()),
     };
     let mut written = Vec::new();
     urdf::write(&creature.morphology, &creature.controller, "it", &mut written)
@@ -117,6 +126,7 @@ pub fn urdf(data: &[u8]) {
     let trial = Trial { scored_s: 0.0, settle_s: 0.0, ..Task::Course.trial() };
     let assembly = Assembly::new(&creature, &trial);
     assert!(assembly.parts.iter().all(|part| part.mass_kg > 0.0));
+    true
 }
 
 fn bits(genome: &[Gene]) -> Vec<u64> {
@@ -127,22 +137,28 @@ fn is_valid(genome: &[Gene]) -> bool {
     !genome.is_empty() && genome.iter().all(evolution::Gene::is_valid)
 }
 
+/// What is refused is refused in a sentence.
+fn refused(message: &str) -> bool {
+    is_one_sentence(message);
+    false
+}
+
 fn is_one_sentence(message: &str) {
     let is_short = message.len() < 2_000 && !message.contains(char::is_control);
     assert!(is_short && !message.is_empty(), "{message:?}");
 }
 
 /// A configuration.
-pub fn config(data: &[u8]) {
+pub fn config(data: &[u8]) -> bool {
     let folder = pieces::folder();
     let path = folder.path().join("run.toml");
     fs::write(&path, data).expect("it is writable");
     let config = match Config::read(&path) {
         Ok(config) => config,
-        Err(failure) => return is_one_sentence(&failure.message),
+        Err(failure) => return refused(&failure.message),
     };
     if let Err(failure) = config.check() {
-        return is_one_sentence(&failure.message);
+        return refused(&failure.message);
     }
     fs::write(&path, config.to_toml()).expect("it is writable");
     assert_eq!(Config::read(&path).as_ref(), Ok(&config));
@@ -155,21 +171,24 @@ pub fn config(data: &[u8]) {
     }
     let problem = config.locomotion();
     assert!((1..=config.max_genes).contains(&problem.genes) && problem.links_max >= 1);
+    true
 }
 
 /// The metrics of a run.
-pub fn metrics_csv(data: &[u8]) {
-    let Ok(rows) = metrics::read(data) else { return };
+pub fn metrics_csv(data: &[u8]) -> bool {
+    let Ok(rows) = metrics::read(data) else { return false };
     let mut written = Vec::new();
     metrics::write(&rows, true, &mut written).expect("memory takes everything");
     let again = metrics::read(written.as_slice()).expect("we wrote it");
     let mut twice = Vec::new();
     metrics::write(&again, true, &mut twice).expect("memory takes everything");
     assert_eq!(written, twice);
+    true
 }
 
-/// A run directory, made of the data as [`pieces::lay_out`] says: an island either goes on from it or begins anew.
-pub fn logbook(data: &[u8]) {
+/// A run directory, made of the data as [`pieces::lay_out`] says: an island either goes on from it, which is to accept it,
+/// or begins anew.
+pub fn logbook(data: &[u8]) -> bool {
     let folder = pieces::folder();
     let dir = RunDir::at(folder.path().join("run"));
     let claim = dir.create().expect("it is new");
@@ -179,34 +198,35 @@ pub fn logbook(data: &[u8]) {
     drop(claim);
     let restored = match opened {
         Ok(restored) => restored,
-        Err(error) => return is_one_sentence(&error.to_string()),
+        Err(error) => return refused(&error.to_string()),
     };
     restored.warnings.iter().for_each(|warning| is_one_sentence(warning));
     for epoch in 0..restored.logbook.epochs() {
         let _ = restored.logbook.outbox(epoch);
     }
-    if let Some(island) = restored.island {
-        assert_eq!(island.population.len(), archipelago().strategy.population);
-        assert!(island.population.iter().all(|one| is_valid(&one.genome)));
-        let next = island::step(island, &[], &Sum, &archipelago());
-        let _ = next.island.effort.failures();
-    }
+    let Some(island) = restored.island else { return false };
+    assert_eq!(island.population.len(), archipelago().strategy.population);
+    assert!(island.population.iter().all(|one| is_valid(&one.genome)));
+    let next = island::step(island, &[], &Sum, &archipelago());
+    let _ = next.island.effort.failures();
+    true
 }
 
 /// An outbox from shared memory: header and payload.
-pub fn outbox(data: &[u8]) {
+pub fn outbox(data: &[u8]) -> bool {
     let ((header, genes), limits) = (wire::batch(data), limits());
-    let Ok(outbox) = limits.outbox(header.island, header, &genes) else { return };
+    let Ok(outbox) = limits.outbox(header.island, header, &genes) else { return false };
     assert!(outbox.island < limits.islands && outbox.migrants.len() <= limits.migrants);
     outbox.migrants.iter().for_each(|migrant| is_sound_individual(migrant, &limits));
     let again = limits.batch(&outbox).expect("what may arrive may be sent");
     assert_eq!(limits.outbox(header.island, again, &genes), Ok(outbox));
+    true
 }
 
 /// A report from shared memory: header and payload.
-pub fn report(data: &[u8]) {
+pub fn report(data: &[u8]) -> bool {
     let ((header, genes), limits) = (wire::report(data), limits());
-    let Ok(sighting) = limits.sighting(header, &genes) else { return };
+    let Ok(sighting) = limits.sighting(header, &genes) else { return false };
     let champion = sighting.champion.as_ref();
     champion.into_iter().for_each(|champion| is_sound_individual(&champion.individual, &limits));
     let effort = sighting.report.effort;
@@ -214,6 +234,7 @@ pub fn report(data: &[u8]) {
     let again = limits.report(&sighting.report, sighting.seconds, champion);
     let again = again.expect("what may arrive may be sent");
     assert_eq!(limits.sighting(again, &genes), Ok(sighting));
+    true
 }
 
 fn limits() -> Limits {

@@ -99,15 +99,17 @@ fn checksum(bytes: &[u8]) -> [u8; 8] {
     *blake3::hash(bytes).as_bytes().first_chunk().expect("a hash has 32 bytes")
 }
 
-/// Where a part of a run directory goes: the lower three bits say which file, the others which checkpoint.
+/// Where a part of a run directory goes: the lower three bits say which file, the next whether as it is, the others which
+/// checkpoint.
 pub mod place {
     pub const CHAMPIONS: u8 = 0;
     pub const REPORTS: u8 = 1;
     pub const MIGRATIONS: u8 = 2;
-    pub const CHECKPOINT: u8 = 3;
+    pub const LINEAGES: u8 = 3;
+    pub const CHECKPOINT: u8 = 4;
     /// The part goes there as it is, without a checksum of its own.
-    pub const RAW: u8 = 4;
-    pub const GENERATION: u8 = 8;
+    pub const RAW: u8 = 8;
+    pub const GENERATION: u8 = 16;
 }
 
 /// A part of the data that [`lay_out`] puts in a place.
@@ -121,10 +123,11 @@ pub fn lay_out(dir: &RunDir, data: &[u8]) {
     for (place, body) in parts(data) {
         let is_raw = place & place::RAW != 0;
         let generation = u32::from(place / place::GENERATION);
-        let (path, sealed) = match place & 3 {
+        let (path, sealed) = match place & 7 {
             place::CHAMPIONS => (dir.champions(0), sealed_record(body)),
             place::REPORTS => (dir.reports(0), sealed_record(body)),
             place::MIGRATIONS => (dir.migrations(0), sealed_record(body)),
+            place::LINEAGES => (dir.lineages(0), sealed_record(body)),
             _ => (dir.checkpoint(0, generation), sealed_checkpoint(body)),
         };
         append(&path, if is_raw { body } else { &sealed });

@@ -43,6 +43,7 @@ fn parts() -> Vec<Vec<u8>> {
         let champion = step.champion.as_ref().map(encode);
         parts.extend(champion.map(|champion| part(place::CHAMPIONS, &champion)));
         parts.push(part(place::REPORTS, &encode(&Entry { report: step.report, seconds: 0.5 })));
+        parts.push(part(place::LINEAGES, &encode(&step.births)));
         let outbox = step.outbox.as_ref().map(encode);
         parts.extend(outbox.map(|outbox| part(place::MIGRATIONS, &outbox)));
     }
@@ -65,7 +66,7 @@ pub fn logs() -> Vec<Vec<u8>> {
         let records = parts().into_iter().filter(|part| part[0] == log);
         records.collect::<Vec<_>>().concat()
     };
-    let raw = [place::CHAMPIONS, place::REPORTS, place::MIGRATIONS].map(of);
+    let raw = [place::CHAMPIONS, place::REPORTS, place::MIGRATIONS, place::LINEAGES].map(of);
     raw.iter().map(|raw| pieces::sealed_records(raw)).chain(raw.clone()).collect()
 }
 

@@ -1,2 +1,4 @@
 #![no_main]
-libfuzzer_sys::fuzz_target!(|data: &[u8]| islands_fuzz::bodies::config(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    islands_fuzz::bodies::config(data);
+});
