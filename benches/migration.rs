@@ -17,7 +17,7 @@ use islands::creature::Gene;
 use islands::evolution::{Fitness, Id, Individual, Selection, Strategy, Variation};
 use islands::rng::{Purpose, Source};
 use islands::store::{self, Journal};
-use islands::transport::{Domain, Exchange, Harbour, TICK};
+use islands::transport::{Domain, Exchange, ServiceHost, TICK};
 use rand::RngExt;
 use std::io::{Read, Write};
 use std::os::unix::net::UnixStream;
@@ -47,9 +47,10 @@ type Group<'a> = BenchmarkGroup<'a, WallTime>;
 fn shared_memory(group: &mut Group<'_>, outbox: &Outbox<Gene>) {
     let archipelago = archipelago(outbox.migrants.len());
     let domain = Domain::new(0xbe_0000_0000 | u64::from(std::process::id()));
-    let harbour = Harbour::<Gene>::create(&domain, &archipelago).expect("there is shared memory");
+    let service_host =
+        ServiceHost::<Gene>::create(&domain, &archipelago).expect("there is shared memory");
     let [from, to] = [0, 1].map(|island| {
-        Exchange::<Gene>::open(&domain, &archipelago, island).expect("the harbour is there")
+        Exchange::<Gene>::open(&domain, &archipelago, island).expect("the service host is there")
     });
     let hand_over = || {
         from.publish(outbox).expect("it keeps the limits");
@@ -59,7 +60,7 @@ fn shared_memory(group: &mut Group<'_>, outbox: &Outbox<Gene>) {
     assert_eq!(hand_over(), *outbox);
     group.bench_function(id("shared memory", outbox), |bencher| bencher.iter(hand_over));
     drop((from, to));
-    harbour.close().expect("nothing of it is left");
+    service_host.close().expect("nothing of it is left");
 }
 
 fn socket_and_codec(group: &mut Group<'_>, outbox: &Outbox<Gene>) {

@@ -17,7 +17,7 @@ const ENDLESS: &str = "--out run --seed 3 --population 4 --robustness 0 --genera
 const COPYIST: &str = "--out run --seed 3 --population 8 --robustness 0 --migrants 8 --elites 1 --genes 1 --max-genes 1 \
                        --crossover-rate 0 --point-rate 0 --shrink-rate 0 --grow-rate 0 --migration-interval 1";
 /// So often an island may end by itself at the same generation.
-const DEATHS_MAX: usize = 5;
+const FAILURES_MAX: usize = 5;
 
 /// Starts a run and waits until every island has evolved a few generations.
 fn start(world: &World, islands: u32) -> (Running, RunDir) {
@@ -295,13 +295,13 @@ fn kill_again_and_again<'a>(run: &Running, signals: impl IntoIterator<Item = &'a
 fn an_island_that_ends_itself_again_and_again_without_progress_stops_the_run() {
     let world = World::new();
     let (run, other) = start_without_progress(&world);
-    kill_again_and_again(&run, ["ABRT"; DEATHS_MAX]);
+    kill_again_and_again(&run, ["ABRT"; FAILURES_MAX]);
     signal(other, "CONT");
     let ending = end_of(run);
     let beginning = "island 1 ended by itself 5 times after generation ";
     assert_ends(&ending, 1, beginning, "go on with: islands resume run");
     assert!(ending.stderr.contains("(signal: 6 (SIGABRT)"), "{ending:?}");
-    assert_eq!(ending.stderr.matches("it is started again").count(), DEATHS_MAX, "{ending:?}");
+    assert_eq!(ending.stderr.matches("it is started again").count(), FAILURES_MAX, "{ending:?}");
     assert_goes_on(&world, "run");
 }
 
@@ -309,8 +309,8 @@ fn an_island_that_ends_itself_again_and_again_without_progress_stops_the_run() {
 fn an_island_that_is_killed_again_and_again_from_outside_is_never_given_up() {
     let world = World::new();
     let (run, other) = start_without_progress(&world);
-    let own_fault = ["ABRT"; DEATHS_MAX - 1];
-    let from_outside = ["KILL", "TERM"].repeat(DEATHS_MAX + 1);
+    let own_fault = ["ABRT"; FAILURES_MAX - 1];
+    let from_outside = ["KILL", "TERM"].repeat(FAILURES_MAX + 1);
     kill_again_and_again(&run, own_fault.into_iter().chain(from_outside));
     signal(other, "CONT");
     let dir = RunDir::at(world.path("run"));

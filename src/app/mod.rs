@@ -3,7 +3,7 @@
 //! `cli`, `settings`, `problem_args` and `body_args` are what can be said, [`config`] the whole of a run in one struct.
 //! [`catalogue`] alone knows every problem, and hands the one that is meant to whoever does something with it;
 //! [`subject`] is what the program has to know of it. `run` is the launcher: it starts a process for each island
-//! (`island`) and one that watches (`monitor`), tied to it by `kinship`: they die with it, and stop when it closes
+//! (`island`) and one that watches (`monitor`), tied to it by `parent_link`: they die with it, and stop when it closes
 //! their standard input. What they wrote is gathered into a `result`. `experiment` compares settings over many runs in
 //! this process. `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher
 //! left; `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export`
@@ -13,7 +13,6 @@
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
-mod atlas;
 mod body_args;
 pub mod catalogue;
 mod clean;
@@ -28,8 +27,9 @@ mod import;
 mod inspect;
 mod island;
 mod kept;
-mod kinship;
+mod map_output;
 mod monitor;
+mod parent_link;
 #[cfg(feature = "view")]
 mod pedigree;
 mod problem_args;

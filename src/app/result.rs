@@ -1,10 +1,10 @@
 //! What came out of a run: gathered from what its islands wrote.
 
 use super::Failure;
-use super::atlas;
 use super::catalogue::Kind;
 use super::config::Config;
 use super::kept::kept;
+use super::map_output;
 use super::subject::Subject;
 use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::generation::Effort;
@@ -111,7 +111,7 @@ pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<
     let best = best(problem, &champions);
     let best = best.ok_or_else(|| Failure::failed("no island has a champion"))?;
     write_champion(dir, problem, &best.1.individual)?;
-    atlas::write(dir, config, problem, &islands)?;
+    map_output::write(dir, config, problem, &islands)?;
     let summary = summarise(dir, config, problem, &islands, best, &reports);
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
     Ok(summary)
@@ -232,12 +232,12 @@ pub fn write_champion<P: Subject>(
 
 /// Keeps the best individual of a run on disk while the run goes on.
 #[derive(Debug)]
-pub struct Podium {
+pub struct BestOnDisk {
     best: Fitness,
 }
 
-impl Podium {
-    /// The podium of a run that may have had champions already.
+impl BestOnDisk {
+    /// The best_on_disk of a run that may have had champions already.
     ///
     /// # Errors
     /// If they cannot be read.

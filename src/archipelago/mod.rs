@@ -2,7 +2,7 @@
 //!
 //! [`algorithm`] says what searches; [`topology`], [`migration`] and [`policy`] say who sends what when; [`island`]
 //! is one island's step, a pure function; [`inbox`] is the receiving end of the exchange protocol, [`arrivals`] that
-//! of an exchange in which nobody waits, and [`voyage`] the whole of it as an island sees it: state machines without
+//! of an exchange in which nobody waits, and [`protocol`] the whole of it as an island sees it: state machines without
 //! a channel, a clock or a file; [`lineage`] says who descends from whom; [`soundness`] says what of a file can be
 //! believed; [`lockstep`] runs a whole archipelago in one process, and is the reference that the processes must
 //! equal to the last bit; [`digest`] is the number in which "equal" is checked.
@@ -19,9 +19,9 @@ pub mod lineage;
 pub mod lockstep;
 pub mod migration;
 pub mod policy;
+pub mod protocol;
 pub mod soundness;
 pub mod topology;
-pub mod voyage;
 
 #[cfg(test)]
 mod tests;
@@ -34,9 +34,9 @@ pub use island::{Champion, Island, Report, Step};
 pub use lineage::{Birth, Births, Lineage};
 pub use migration::{Migration, Outbox};
 pub use policy::{Emigrants, ExchangeMode, Replacement};
+pub use protocol::{Action, Protocol};
 pub use soundness::Misfit;
 pub use topology::{Graph, Topology};
-pub use voyage::{Deed, Voyage};
 
 use crate::evolution::Strategy;
 use crate::rng::Source;

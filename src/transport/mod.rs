@@ -11,15 +11,15 @@
 //! | `wakeup/<i>` | island i's neighbours | island i | one is as good as many |
 //! | `reports` | all islands | launcher, and one who watches by hand | the oldest is forgotten |
 //!
-//! A [`Domain`] keeps a run apart from all others. The launcher's [`Harbour`] creates the services, holds
+//! A [`Domain`] keeps a run apart from all others. The launcher's [`ServiceHost`] creates the services, holds
 //! them open while islands come and go, cleans up after the dead and leaves nothing behind; what a killed
 //! launcher leaves ([`Domain::abandoned`]), the next one removes. An island opens an [`Exchange`]; who wants
-//! to watch opens a [`Lookout`], and there is room for one besides the launcher.
+//! to watch opens a [`ReportReader`], and there is room for one besides the launcher.
 //!
 //! Below these, from the ground: `names` says what everything of a run is called, `shared_memory` finds it, a
 //! `claim` says whose it is, and `remains` is what is there without a living launcher; `wire` is what travels,
 //! and `limits` what of it is believed; `services` lists the services, `files` sees to it that they can be open,
-//! `ports` opens their ends, and `burial` gives free what dead islands held.
+//! `ports` opens their ends, and `dead_nodes` gives free what dead islands held.
 //!
 //! # How it is meant to be used
 //!
@@ -36,7 +36,7 @@
 //!   [`missing`](crate::archipelago::Inbox::missing) names, with the missing epoch.
 //! - At every tick, at the end of every generation, and after its last one until it is told to stop, it asks
 //!   [`Exchange::requests`], and publishes its journal again from the epoch that it names.
-//! - The launcher waits for a child that has died, calls [`Harbour::cleanup_dead_nodes`], and starts the
+//! - The launcher waits for a child that has died, calls [`ServiceHost::cleanup_dead_nodes`], and starts the
 //!   next one.
 //!
 //! Where islands do not wait for each other ([`ExchangeMode::Async`](crate::archipelago::ExchangeMode)) nothing is
@@ -46,17 +46,17 @@
 //! losses and repetitions change when something arrives, never what. Nothing received is believed before it
 //! was checked.
 
-mod burial;
 mod claim;
+mod dead_nodes;
 mod domain;
 mod exchange;
 mod files;
-mod harbour;
 mod limits;
-mod lookout;
 mod names;
 mod ports;
 mod remains;
+mod report_reader;
+mod service_host;
 mod services;
 mod shared_memory;
 #[cfg(test)]
@@ -66,10 +66,10 @@ pub mod wire;
 
 pub use domain::Domain;
 pub use exchange::{Exchange, Received, TICK};
-pub use harbour::Harbour;
 pub use limits::{Limits, Rejection, Sighting};
-pub use lookout::Lookout;
 pub use remains::{Remains, Removal};
+pub use report_reader::ReportReader;
+pub use service_host::ServiceHost;
 
 use std::fmt::Display;
 use std::io;

@@ -195,7 +195,7 @@ impl Plan {
         2 * self.history
     }
 
-    // Every island, the launcher's harbour and lookout, one who watches by hand, and those dead but not cleaned
+    // Every island, the launcher's service host and report reader, one who watches by hand, and those dead but not cleaned
     // up.
     fn nodes(&self) -> usize {
         self.islands as usize + 6

@@ -26,13 +26,13 @@ pub const FRAME: &str = "race/frame";
 /// An eye that sees all champions.
 pub fn eye(card: &RunCard) -> EyeControls3D {
     match card.ground {
-        Ground::Plane => marshal(card.track()),
+        Ground::Plane => race_eye(card.track()),
         Ground::Terrain(terrain) => visitor(terrain),
     }
 }
 
 /// An eye that sees all lanes of a track from its right, a little ahead; the more lanes, the more from above.
-fn marshal(track: Track) -> EyeControls3D {
+fn race_eye(track: Track) -> EyeControls3D {
     let many = (log2f(track.lanes.max(1) as f32) / 4.0).min(1.0);
     let [ahead, above] = [22.0_f32.to_radians(), (26.0 + 30.0 * many).to_radians()];
     let level = cosf(above);

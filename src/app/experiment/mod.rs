@@ -1,35 +1,35 @@
 //! `islands experiment`: settings are compared, each over many seeds.
 //!
-//! A [`definition`] is read, and every run of it checked before the first is begun. A [`crew`] does those that an
+//! A [`definition`] is read, and every run of it checked before the first is begun. [`workers`] do those that an
 //! [`archive`] does not hold yet, each [`trial`] in lockstep in this process, and [`progress`] shows how many. Then
 //! an [`analysis`] of all is laid out in [`tables`] and drawn.
 
 mod analysis;
 mod archive;
 mod args;
-mod crew;
 mod definition;
 mod progress;
 mod tables;
 #[cfg(test)]
 mod tests;
 mod trial;
+mod workers;
 
 pub use args::ExperimentArgs;
 
 use super::Failure;
 use super::config::{FILE_BYTES_MAX, THREADS_MAX};
 use super::console::{print, say};
-use super::kinship::Ear;
+use super::parent_link::StopSignal;
 use super::table::lay_out;
 use crate::store::{ExperimentDir, StoreError, file};
 use analysis::{Comparison, Summary};
 use archive::Run;
-use crew::Job;
 use definition::{Definition, Plan};
 use progress::Progress;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use workers::Job;
 
 /// Runs what is missing of an experiment, and writes its results.
 ///
@@ -42,7 +42,7 @@ pub fn run(args: &ExperimentArgs) -> Result<(), Failure> {
         Failure::usage(format!("cannot use {}: {reason}", args.file.display()))
     })?;
     let dir = ExperimentDir::at(folder(args)?);
-    let ear = Ear::to_signals()?;
+    let stop = StopSignal::from_signals()?;
     let _claim = dir.claim().map_err(|error| match error {
         StoreError::UnderWay { .. } => Failure::usage(format!(
             "the experiment in {} is under way in another process",
@@ -56,7 +56,7 @@ pub fn run(args: &ExperimentArgs) -> Result<(), Failure> {
     if !args.quiet {
         announce(&plan, kept, has_changed);
     }
-    complete(&dir, &plan, &mut found, threads, &ear, args)?;
+    complete(&dir, &plan, &mut found, threads, &stop, args)?;
     let runs: Vec<Vec<Run>> =
         found.into_iter().map(|runs| runs.into_iter().flatten().collect()).collect();
     let result = Outcome::of(&plan, &runs, &dir, kept);
@@ -120,23 +120,24 @@ fn complete(
     plan: &Plan,
     found: &mut [Vec<Option<Run>>],
     threads: usize,
-    ear: &Ear,
+    stop: &StopSignal,
     args: &ExperimentArgs,
 ) -> Result<(), Failure> {
     let jobs = missing(plan, found);
     let all = plan.settings.len() * plan.seeds.len();
     let mut progress = Progress::new(all - jobs.len(), all, args.quiet || jobs.is_empty());
-    let worked = crew::work_off(&jobs, plan.evaluations, threads, ear, |job, trial, seconds| {
-        let setting = &plan.settings[job.setting];
-        let run = Run { seed: job.seed, key: plan.key(setting, job.seed), seconds, trial };
-        archive::save(dir, &run)?;
-        let best = run.trial.worth();
-        let (name, seed) = (&setting.name, job.seed);
-        progress.advance(&format!("{name}  seed {seed}  best {best}  {seconds:.1} s"));
-        let place = plan.seeds.iter().position(|&seed| seed == job.seed);
-        found[job.setting][place.expect("a job has a seed of the plan")] = Some(run);
-        Ok(())
-    });
+    let worked =
+        workers::work_off(&jobs, plan.evaluations, threads, stop, |job, trial, seconds| {
+            let setting = &plan.settings[job.setting];
+            let run = Run { seed: job.seed, key: plan.key(setting, job.seed), seconds, trial };
+            archive::save(dir, &run)?;
+            let best = run.trial.worth();
+            let (name, seed) = (&setting.name, job.seed);
+            progress.advance(&format!("{name}  seed {seed}  best {best}  {seconds:.1} s"));
+            let place = plan.seeds.iter().position(|&seed| seed == job.seed);
+            found[job.setting][place.expect("a job has a seed of the plan")] = Some(run);
+            Ok(())
+        });
     progress.finish();
     worked?;
     let done = found.iter().flatten().flatten().count();

@@ -8,10 +8,10 @@ use super::catalogue::Visitor;
 use super::cli::IslandArgs;
 use super::config::Config;
 use super::console::{Stopwatch, say};
-use super::kinship::{Ear, FINISHED, READY, tell};
+use super::parent_link::{FINISHED, READY, StopSignal, tell};
 use super::seeds;
 use super::subject::Subject;
-use crate::archipelago::{Archipelago, Arrival, Deed, ExchangeMode, Outbox, Step, Voyage};
+use crate::archipelago::{Action, Archipelago, Arrival, ExchangeMode, Outbox, Protocol, Step};
 use crate::problems::Founded;
 use crate::store::{Journal, JournalReader, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
@@ -25,25 +25,25 @@ use std::fmt::Display;
 /// # Errors
 /// If its files or its shared memory fail it.
 pub fn run(args: &IslandArgs) -> Result<(), Failure> {
-    let ear = Ear::to(args.parent)?;
+    let stop_signal = StopSignal::from_parent(args.parent)?;
     let dir = RunDir::at(&args.dir);
     let config = Config::of_run(&dir)?;
-    config.visit(Sailing { args, dir: &dir, config: &config, ear })
+    config.visit(Start { args, dir: &dir, config: &config, stop_signal })
 }
 
 /// An island that is to evolve some problem.
-struct Sailing<'a> {
+struct Start<'a> {
     args: &'a IslandArgs,
     dir: &'a RunDir,
     config: &'a Config,
-    ear: Ear,
+    stop_signal: StopSignal,
 }
 
-impl Visitor for Sailing<'_> {
+impl Visitor for Start<'_> {
     type Output = Result<(), Failure>;
 
     fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
-        let Self { args, dir, config, ear } = self;
+        let Self { args, dir, config, stop_signal } = self;
         let archipelago = config.archipelago();
         // Before any thread makes a file: opening changes the umask for a moment.
         let exchange = Exchange::open(&config.domain()?, &archipelago, args.index)?;
@@ -58,16 +58,17 @@ impl Visitor for Sailing<'_> {
         }
         let problem = seeds::founded(dir, config, problem)?;
         let saved = island.as_ref().map(|island| island.generation);
-        let voyage = Voyage::begin(&problem, &archipelago, args.index, config.generations, island);
-        let voyage = voyage.with_record(arrivals);
-        let mut ship = Ship {
+        let protocol =
+            Protocol::begin(&problem, &archipelago, args.index, config.generations, island);
+        let protocol = protocol.with_record(arrivals);
+        let mut process = IslandProcess {
             config,
             archipelago: &archipelago,
             problem: &problem.problem,
-            voyage,
+            protocol,
             exchange,
             logbook,
-            ear,
+            stop_signal,
             patience: Patience::new(),
             panics: Panics::of(dir),
             generation_began: Stopwatch::start(),
@@ -76,20 +77,20 @@ impl Visitor for Sailing<'_> {
             refused: BTreeMap::new(),
             journals: BTreeMap::new(),
         };
-        ship.catch_up(dir)?;
-        ship.sail(dir)
+        process.catch_up(dir)?;
+        process.evolve(dir)
     }
 }
 
 /// An island and what connects it to the world: its neighbours, its files and its launcher.
-struct Ship<'a, P: Subject> {
+struct IslandProcess<'a, P: Subject> {
     config: &'a Config,
     archipelago: &'a Archipelago,
     problem: &'a P,
-    voyage: Voyage<'a, Founded<P>>,
+    protocol: Protocol<'a, Founded<P>>,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
-    ear: Ear,
+    stop_signal: StopSignal,
     patience: Patience,
     panics: Panics<'a>,
     generation_began: Stopwatch,
@@ -109,11 +110,11 @@ struct Told {
     finished: bool,
 }
 
-impl<P: Subject> Ship<'_, P> {
+impl<P: Subject> IslandProcess<'_, P> {
     /// Takes up where its predecessor died: sends again what may have been lost on the way out, and reads in the
     /// neighbours' journals what may have been lost on the way in, since they may be busy, stopped or dead.
     fn catch_up(&mut self, dir: &RunDir) -> Result<(), Failure> {
-        let Some(island) = self.voyage.island() else { return Ok(()) };
+        let Some(island) = self.protocol.island() else { return Ok(()) };
         let window = self.exchange.history();
         let migration = &self.archipelago.migration;
         if migration.exchange == ExchangeMode::Async {
@@ -134,19 +135,19 @@ impl<P: Subject> Ship<'_, P> {
     }
 
     /// Evolves until all is done, and serves the neighbours until the launcher wants it to stop.
-    fn sail(&mut self, dir: &RunDir) -> Result<(), Failure> {
+    fn evolve(&mut self, dir: &RunDir) -> Result<(), Failure> {
         let clock = Stopwatch::start();
-        while !self.ear.heard_stop() {
+        while !self.stop_signal.is_raised() {
             self.receive();
             self.answer()?;
             self.tell_ready();
-            match self.voyage.advance(clock.elapsed()) {
-                Deed::Evolved(step) => self.conclude(&step)?,
-                Deed::Ask { sources, epoch } => self.ask(&sources, epoch),
-                Deed::Record(arrivals) => self.logbook.record_arrivals(&arrivals)?,
-                Deed::Recall(outboxes) => self.recall(dir, &outboxes)?,
-                Deed::Wait => self.wait()?,
-                Deed::Arrived => self.rest()?,
+            match self.protocol.advance(clock.elapsed()) {
+                Action::Evolved(step) => self.conclude(&step)?,
+                Action::Ask { sources, epoch } => self.ask(&sources, epoch),
+                Action::Record(arrivals) => self.logbook.record_arrivals(&arrivals)?,
+                Action::Recall(outboxes) => self.recall(dir, &outboxes)?,
+                Action::Wait => self.wait()?,
+                Action::Arrived => self.rest()?,
             }
         }
         self.save()
@@ -154,11 +155,11 @@ impl<P: Subject> Ship<'_, P> {
 
     /// Tells the launcher that it can evolve the next generation, as soon as it can.
     fn tell_ready(&mut self) {
-        if self.told.ready || self.voyage.waits_for().is_some() {
+        if self.told.ready || self.protocol.waits_for().is_some() {
             return;
         }
         self.told.ready = true;
-        let generation = self.voyage.island().map(|island| island.generation.to_string());
+        let generation = self.protocol.island().map(|island| island.generation.to_string());
         tell(&format!("{READY}{}", generation.as_deref().unwrap_or("nothing")));
     }
 
@@ -184,7 +185,7 @@ impl<P: Subject> Ship<'_, P> {
             let new = || JournalReader::of(dir.migrations(source));
             let outbox = self.journals.entry(source).or_insert_with(new).outbox(epoch)?;
             if let Some(outbox) = outbox.filter(|it| it.fits(self.archipelago, source)) {
-                self.voyage.recall(outbox);
+                self.protocol.recall(outbox);
                 found = true;
             }
         }
@@ -196,7 +197,7 @@ impl<P: Subject> Ship<'_, P> {
     }
 
     fn wait(&mut self) -> Result<(), Failure> {
-        self.patience.wait(self.voyage.waits_for());
+        self.patience.wait(self.protocol.waits_for());
         self.exchange.wait(TICK)?;
         Ok(())
     }
@@ -231,7 +232,7 @@ impl<P: Subject> Ship<'_, P> {
         if self.archipelago.migration.exchange == ExchangeMode::Async && epoch >= epochs {
             return self.refuse(source, &"it is of an epoch after the end of the run");
         }
-        let arrival = self.voyage.receive(outbox);
+        let arrival = self.protocol.receive(outbox);
         // A neighbour that is far ahead is no liar. One that is soon after the end may be of a run that was to
         // be longer.
         if arrival == Arrival::TooEarly && epoch >= epochs {
@@ -278,7 +279,7 @@ impl<P: Subject> Ship<'_, P> {
 
     /// Saves the island as it is, unless it is saved already.
     fn save(&mut self) -> Result<(), Failure> {
-        let Some(island) = self.voyage.island() else { return Ok(()) };
+        let Some(island) = self.protocol.island() else { return Ok(()) };
         if self.saved != Some(island.generation) {
             self.logbook.save(island)?;
             self.saved = Some(island.generation);

@@ -1,7 +1,7 @@
 //! The monitor's process: films what the islands write down, and serves it live. It only looks: a run without
 //! it loses nothing but the film, and a monitor that dies loses nothing at all, since another one makes the
-//! same film anew. `logs` reads what the islands wrote, `cinema` films it, `ancestry` says whose family is seen, and
-//! `show` when.
+//! same film anew. `logs` reads what the islands wrote, `film_recorder` films it, `ancestry` says whose family is seen,
+//! and `show` when.
 
 use super::Failure;
 use super::cli::MonitorArgs;
@@ -9,7 +9,7 @@ use super::cli::MonitorArgs;
 #[cfg(feature = "view")]
 mod ancestry;
 #[cfg(feature = "view")]
-mod cinema;
+mod film_recorder;
 #[cfg(feature = "view")]
 mod logs;
 #[cfg(feature = "view")]

@@ -5,10 +5,10 @@ use super::super::catalogue::Visitor;
 use super::super::cli::{MonitorArgs, Watching};
 use super::super::config::Config;
 use super::super::console::{Stopwatch, print, say};
-use super::super::kinship::{Ear, SERVING, tell};
+use super::super::parent_link::{SERVING, StopSignal, tell};
 use super::super::subject::Subject;
 use super::super::{result, viewer};
-use super::cinema::Cinema;
+use super::film_recorder::FilmRecorder;
 use super::logs::Logs;
 use crate::store::{RunDir, file};
 use crate::view::Live;
@@ -30,15 +30,15 @@ const BATCH: usize = 16;
 /// # Errors
 /// The same.
 pub fn run(args: &MonitorArgs) -> Result<(), Failure> {
-    let ear = match args.parent {
-        Some(parent) => Ear::to(parent)?,
-        None => Ear::to_signals()?,
+    let stop_signal = match args.parent {
+        Some(parent) => StopSignal::from_parent(parent)?,
+        None => StopSignal::from_signals()?,
     };
     // Standing back is a courtesy: where it is not to be had, filming goes on.
     let _ = rustix::process::nice(NICENESS);
     let dir = RunDir::at(&args.dir);
     let config = Config::of_run(&dir)?;
-    config.visit(Projection { args, dir, config: &config, ear })
+    config.visit(Projection { args, dir, config: &config, stop_signal })
 }
 
 /// A run that is to be shown.
@@ -46,7 +46,7 @@ struct Projection<'a> {
     args: &'a MonitorArgs,
     dir: RunDir,
     config: &'a Config,
-    ear: Ear,
+    stop_signal: StopSignal,
 }
 
 impl Visitor for Projection<'_> {
@@ -59,9 +59,9 @@ impl Visitor for Projection<'_> {
 
 impl Projection<'_> {
     fn show<P: Subject>(self, problem: P) -> Result<(), Failure> {
-        let Self { args, dir, config, ear } = self;
+        let Self { args, dir, config, stop_signal } = self;
         let launched = args.parent.is_some();
-        let Some(_turn) = await_turn(&dir, launched, &ear)? else { return Ok(()) };
+        let Some(_turn) = await_turn(&dir, launched, &stop_signal)? else { return Ok(()) };
         // Nobody has the time to attach to a run that is over.
         let is_watched = args.view.view != Watching::Off && (launched || dir.is_under_way()?);
         let live = is_watched.then(|| Live {
@@ -70,16 +70,16 @@ impl Projection<'_> {
             ..Live::default()
         });
         let folder = if launched { dir.partial() } else { dir.path().to_owned() };
-        let cinema =
-            Cinema::open(&folder, &dir.recording(), live, config, problem, args.clip_every)?;
-        if let (Some(wanted), Some(port)) = (args.view.view_port, cinema.port())
+        let film_recorder =
+            FilmRecorder::open(&folder, &dir.recording(), live, config, problem, args.clip_every)?;
+        if let (Some(wanted), Some(port)) = (args.view.view_port, film_recorder.port())
             && wanted != port
         {
             say(&format!(
                 "warning: port {wanted} is taken; the live view is served on port {port}"
             ));
         }
-        match cinema.address() {
+        match film_recorder.address() {
             Some(address) if launched => tell(&format!("{SERVING}{address}")),
             Some(address) => {
                 print(&format!("watch it live:  rerun {address}"));
@@ -90,13 +90,17 @@ impl Projection<'_> {
             None => {}
         }
         let logs = Logs::of(&dir, config.islands);
-        Show { dir, config: config.clone(), launched, ear, logs, cinema }.run()
+        Show { dir, config: config.clone(), launched, stop_signal, logs, film_recorder }.run()
     }
 }
 
 /// One monitor at a time films a run, as long as it holds what this returns; none if it was stopped while
 /// another one was still at it. Who was stopped before it began films all the same: it came late.
-fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, Failure> {
+fn await_turn(
+    dir: &RunDir,
+    launched: bool,
+    stop_signal: &StopSignal,
+) -> Result<Option<File>, Failure> {
     let mut folder = dir.champions(0);
     folder.pop();
     let failed = |error| Failure::failed(format!("cannot use {}: {error}", folder.display()));
@@ -105,7 +109,7 @@ fn await_turn(dir: &RunDir, launched: bool, ear: &Ear) -> Result<Option<File>, F
         match file.try_lock() {
             Ok(()) => return Ok(Some(file)),
             Err(TryLockError::Error(error)) => return Err(failed(error)),
-            Err(TryLockError::WouldBlock) if ear.heard_stop() => return Ok(None),
+            Err(TryLockError::WouldBlock) if stop_signal.is_raised() => return Ok(None),
             Err(TryLockError::WouldBlock) if launched => std::thread::sleep(LOOK),
             Err(TryLockError::WouldBlock) => {
                 let path = dir.path().display();
@@ -120,9 +124,9 @@ struct Show<P: Subject> {
     dir: RunDir,
     config: Config,
     launched: bool,
-    ear: Ear,
+    stop_signal: StopSignal,
     logs: Logs<P::Gene>,
-    cinema: Cinema<P>,
+    film_recorder: FilmRecorder<P>,
 }
 
 impl<P: Subject> Show<P> {
@@ -133,7 +137,7 @@ impl<P: Subject> Show<P> {
             if self.look()? {
                 // A recording that replaces none has nothing to wait for, while the islands may long be ahead.
                 if self.is_under_way()? && !self.dir.recording().exists() {
-                    self.cinema.publish()?;
+                    self.film_recorder.publish()?;
                 }
                 self.rest(REST * (cpu_s() - began_s))?;
                 continue;
@@ -142,9 +146,9 @@ impl<P: Subject> Show<P> {
                 return self.end();
             }
             // What was written before this is read after it.
-            last = self.ear.heard_stop() || !self.is_under_way()?;
+            last = self.stop_signal.is_raised() || !self.is_under_way()?;
             if !last {
-                self.cinema.publish()?;
+                self.film_recorder.publish()?;
                 std::thread::sleep(LOOK);
             }
         }
@@ -153,7 +157,7 @@ impl<P: Subject> Show<P> {
     /// Leaves the cores to the islands for a while, unless they have ended.
     fn rest(&self, seconds: f64) -> Result<(), Failure> {
         let watch = Stopwatch::start();
-        while watch.seconds() < seconds && !self.ear.heard_stop() && self.is_under_way()? {
+        while watch.seconds() < seconds && !self.stop_signal.is_raised() && self.is_under_way()? {
             std::thread::sleep(LOOK);
         }
         Ok(())
@@ -168,26 +172,26 @@ impl<P: Subject> Show<P> {
         for round in 0..BATCH {
             let sightings = self.logs.next_round();
             if sightings.is_empty() {
-                self.cinema.flush()?;
+                self.film_recorder.flush()?;
                 return Ok(round > 0);
             }
-            sightings.iter().try_for_each(|sighting| self.cinema.show(sighting))?;
+            sightings.iter().try_for_each(|sighting| self.film_recorder.show(sighting))?;
         }
-        self.cinema.flush()?;
+        self.film_recorder.flush()?;
         Ok(true)
     }
 
     /// Everything was read.
     fn end(self) -> Result<(), Failure> {
-        let Self { dir, config, launched, logs, cinema, .. } = self;
+        let Self { dir, config, launched, logs, film_recorder, .. } = self;
         if launched {
-            return cinema.finish();
+            return film_recorder.finish();
         }
         let (folder, recording) = (dir.path().display(), dir.recording());
-        if !cinema.has_shown() {
+        if !film_recorder.has_shown() {
             return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
         }
-        let is_over = result::finished(&dir, &config, cinema.problem()).is_some();
+        let is_over = result::finished(&dir, &config, film_recorder.problem()).is_some();
         let short = logs.first_short_of(config.generations).filter(|_| is_over);
         if let Some((island, generations)) = short {
             let news = format!(
@@ -201,7 +205,7 @@ impl<P: Subject> Show<P> {
             }
             say(&format!("warning: {news}"));
         }
-        cinema.finish()?;
+        film_recorder.finish()?;
         print(&format!("view it:  rerun {}", recording.display()));
         Ok(())
     }

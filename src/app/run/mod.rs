@@ -1,17 +1,17 @@
 //! `islands run` and `islands resume`: from what was asked for to the result.
 //!
 //! Here a run is made, or found again by [`resume`]. Then a [`supervisor`] sees it to its end: it starts the
-//! [`crew`], child processes each ([`kin`]), hears what they say, and starts again who dies, unless that has no
-//! hope ([`mortality`]). What happens is told and logged by a [`chronicle`], and how far it got is shown by
-//! [`progress`]; at the end it is said how to [`film`] the champion.
+//! [`processes`], each a [`child`], hears what they say, and starts those again that die, as the [`restart_policy`]
+//! allows. A [`run_log`] tells and keeps what happens, [`progress`] shows how far the run got, and at the end [`film`]
+//! says how to film the champion.
 
-mod chronicle;
-mod crew;
+mod child;
 mod film;
-mod kin;
-mod mortality;
+mod processes;
 mod progress;
+mod restart_policy;
 mod resume;
+mod run_log;
 mod supervisor;
 
 use super::Failure;
@@ -19,13 +19,13 @@ use super::catalogue::{Kind, Visitor};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
 use super::console::{print, quoted, say};
-use super::kinship::Ear;
+use super::parent_link::StopSignal;
 use super::result::{self, Summary};
 use super::subject::Subject;
 use super::{seeds, terrains};
 use crate::archipelago::ExchangeMode;
 use crate::store::{Claim, RunDir};
-use crate::transport::{Domain, Harbour};
+use crate::transport::{Domain, ServiceHost};
 use rand::TryRng;
 use rustix::fs::Mode;
 use std::path::{Path, PathBuf};
@@ -57,11 +57,11 @@ impl Visitor for Begin<'_> {
         let read_from = args.config.as_deref();
         let founders = seeds::find(&problem, &mut config, &args.seed_genomes, dropped, read_from)?;
         config.launch = Some(new_launch()?);
-        let ear = Ear::to_signals()?;
+        let stop_signal = StopSignal::from_signals()?;
         let dir = run_dir(args.out.as_deref(), &config);
         require_text(&dir)?;
         let domain = config.domain()?;
-        let harbour = Harbour::create(&domain, &config.archipelago())?;
+        let service_host = ServiceHost::create(&domain, &config.archipelago())?;
         let claim = dir.create().map_err(|error| {
             let go_on = match dir.config().exists() {
                 true => format!(", or go on with it: {}", resume::command(&dir)),
@@ -73,7 +73,7 @@ impl Visitor for Begin<'_> {
         terrains::keep(&dir, &config)?;
         write_config(&dir, &config)?;
         claim.make_folders(config.islands)?;
-        Launch { problem, config, dir, claim, domain, harbour, ear }.go(&args.output)
+        Launch { problem, config, dir, claim, domain, service_host, stop_signal }.go(&args.output)
     }
 }
 
@@ -85,10 +85,10 @@ pub fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     keep_private();
     let dir = RunDir::at(&args.dir);
     require_text(&dir)?;
-    let ear = Ear::to_signals()?;
+    let stop_signal = StopSignal::from_signals()?;
     let claim = resume::claim(&dir)?;
     let config = resume::config(&dir, &args.settings)?;
-    config.visit(GoOn { args, config: config.clone(), dir, claim, ear })
+    config.visit(GoOn { args, config: config.clone(), dir, claim, stop_signal })
 }
 
 /// A run that is to go on.
@@ -97,14 +97,14 @@ struct GoOn<'a> {
     config: Config,
     dir: RunDir,
     claim: Claim,
-    ear: Ear,
+    stop_signal: StopSignal,
 }
 
 impl Visitor for GoOn<'_> {
     type Output = Result<(), Failure>;
 
     fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
-        let Self { args, mut config, dir, claim, ear } = self;
+        let Self { args, mut config, dir, claim, stop_signal } = self;
         resume::require_checkpoints::<P::Gene>(&dir, &config)?;
         if let Some(summary) = result::finished(&dir, &config, &problem) {
             // Its launcher may have been killed over its last words.
@@ -115,10 +115,10 @@ impl Visitor for GoOn<'_> {
         let problem = seeds::founded(&dir, &config, problem)?.problem;
         config.launch = Some(new_launch()?);
         let domain = config.domain()?;
-        let harbour = Harbour::create(&domain, &config.archipelago())?;
+        let service_host = ServiceHost::create(&domain, &config.archipelago())?;
         claim.make_folders(config.islands)?;
         write_config(&dir, &config)?;
-        Launch { problem, config, dir, claim, domain, harbour, ear }.go(&args.output)
+        Launch { problem, config, dir, claim, domain, service_host, stop_signal }.go(&args.output)
     }
 }
 
@@ -129,13 +129,13 @@ struct Launch<P: Subject> {
     dir: RunDir,
     claim: Claim,
     domain: Domain,
-    harbour: Harbour<P::Gene>,
-    ear: Ear,
+    service_host: ServiceHost<P::Gene>,
+    stop_signal: StopSignal,
 }
 
 impl<P: Subject> Launch<P> {
     fn go(self, output: &OutputArgs) -> Result<(), Failure> {
-        let Self { problem, config, dir, claim, domain, harbour, ear } = self;
+        let Self { problem, config, dir, claim, domain, service_host, stop_signal } = self;
         if config.exchange == ExchangeMode::Async {
             claim.make_arrivals()?;
             say(
@@ -143,16 +143,23 @@ impl<P: Subject> Launch<P> {
                  is recorded, so that it can be evolved again to the same digest",
             );
         }
-        let supervised =
-            Supervisor::launch(&problem, &config, &dir, &domain, &harbour, ear, output)
-                .and_then(Supervisor::see_to_the_end);
+        let supervised = Supervisor::launch(
+            &problem,
+            &config,
+            &dir,
+            &domain,
+            &service_host,
+            stop_signal,
+            output,
+        )
+        .and_then(Supervisor::see_to_the_end);
         if supervised.is_err() {
             // What there is so far can be plotted; if not, there is a worse failure to tell of.
             let _ = result::write_metrics(&dir, &config);
         }
         let summary = supervised.and_then(|()| result::gather(&dir, &config, &problem));
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
-        let closed = harbour.close();
+        let closed = service_host.close();
         drop(claim);
         present(&summary?, &config, output);
         Ok(closed?)

@@ -4,16 +4,16 @@ use super::super::Failure;
 use super::super::cli::{OutputArgs, Watching};
 use super::super::config::Config;
 use super::super::console::Stopwatch;
-use super::super::kinship::{Ear, FINISHED, READY, SERVING};
-use super::super::result::Podium;
+use super::super::parent_link::{FINISHED, READY, SERVING, StopSignal};
+use super::super::result::BestOnDisk;
 use super::super::subject::Subject;
-use super::chronicle::Chronicle;
-use super::crew::Crew;
-use super::kin::{Role, Word};
-use super::mortality::DEATHS_MAX;
+use super::child::{Role, Word};
+use super::processes::Processes;
+use super::restart_policy::FAILURES_MAX;
 use super::resume::{self, require_folder};
+use super::run_log::RunLog;
 use crate::store::RunDir;
-use crate::transport::{Domain, Harbour, Lookout};
+use crate::transport::{Domain, ReportReader, ServiceHost};
 use std::process::ExitStatus;
 use std::time::Duration;
 
@@ -29,13 +29,13 @@ const LAST_WORDS: Duration = Duration::from_secs(5);
 /// Who watches over a run.
 pub struct Supervisor<'a, P: Subject> {
     dir: &'a RunDir,
-    harbour: &'a Harbour<P::Gene>,
+    service_host: &'a ServiceHost<P::Gene>,
     problem: &'a P,
-    ear: Ear,
-    crew: Crew,
-    lookout: Lookout<P::Gene>,
-    podium: Podium,
-    chronicle: Chronicle,
+    stop_signal: StopSignal,
+    processes: Processes,
+    report_reader: ReportReader<P::Gene>,
+    best_on_disk: BestOnDisk,
+    run_log: RunLog,
     watch: Stopwatch,
     /// Whether a viewer is to be opened.
     opens_viewer: bool,
@@ -51,28 +51,28 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         config: &'a Config,
         dir: &'a RunDir,
         domain: &Domain,
-        harbour: &'a Harbour<P::Gene>,
-        ear: Ear,
+        service_host: &'a ServiceHost<P::Gene>,
+        stop_signal: StopSignal,
         output: &OutputArgs,
     ) -> Result<Self, Failure> {
         let mut supervisor = Self {
             problem,
-            ear,
-            crew: Crew::new(dir.clone(), config.clone(), output.view),
-            lookout: Lookout::open(domain, &config.archipelago())?,
-            podium: Podium::of::<P::Gene>(dir, config)?,
-            chronicle: Chronicle::open(dir, config, output.quiet)?,
+            stop_signal,
+            processes: Processes::new(dir.clone(), config.clone(), output.view),
+            report_reader: ReportReader::open(domain, &config.archipelago())?,
+            best_on_disk: BestOnDisk::of::<P::Gene>(dir, config)?,
+            run_log: RunLog::open(dir, config, output.quiet)?,
             watch: Stopwatch::start(),
             opens_viewer: output.view.view == Watching::Spawn,
             dir,
-            harbour,
+            service_host,
         };
-        supervisor.chronicle.tell(&overture(config, P::INHABITANTS, dir));
+        supervisor.run_log.tell(&opening_line(config, P::INHABITANTS, dir));
         for island in 0..config.islands {
-            supervisor.crew.start(Role::Island(island))?;
+            supervisor.processes.start(Role::Island(island))?;
         }
         if cfg!(feature = "view") && !output.no_monitor {
-            supervisor.crew.start(Role::Monitor)?;
+            supervisor.processes.start(Role::Monitor)?;
         }
         Ok(supervisor)
     }
@@ -83,19 +83,19 @@ impl<'a, P: Subject> Supervisor<'a, P> {
     /// If the user interrupts it, or an island cannot go on; nothing is lost then.
     pub fn see_to_the_end(mut self) -> Result<(), Failure> {
         let watched = self.watch_over();
-        self.chronicle.finish();
+        self.run_log.finish();
         if let Err(failure) = &watched {
-            self.chronicle.note(&failure.message);
+            self.run_log.note(&failure.message);
         }
         self.stop(watched.is_ok());
         watched
     }
 
     fn watch_over(&mut self) -> Result<(), Failure> {
-        while !self.crew.is_finished() {
+        while !self.processes.is_finished() {
             self.look()?;
-            if self.ear.heard_stop() {
-                let reached = self.crew.generation();
+            if self.stop_signal.is_raised() {
+                let reached = self.processes.generation();
                 let reached =
                     reached.map_or_else(String::new, |g| format!(" after generation {g}"));
                 return Err(Failure::interrupted(format!(
@@ -113,33 +113,33 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         require_folder(self.dir)?;
         self.take_reports()?;
         // Who falls meanwhile is seen to the next time: so an interruption is heard however often they die.
-        self.crew.fallen().into_iter().try_for_each(|role| self.replace(role))
+        self.processes.dead().into_iter().try_for_each(|role| self.replace(role))
     }
 
     /// Hears everybody out.
     fn listen(&mut self, within: Duration) {
-        let mut word = self.crew.hear(within);
+        let mut word = self.processes.hear(within);
         while let Some((role, what)) = word {
             match what {
                 Word::Said(line) => self.heed(role, &line),
                 Word::Complained(line) => self.hear_complaint(role, &line),
-                Word::Fell => self.crew.post(role).falls(),
+                Word::Died => self.processes.state(role).dies(),
             }
-            word = self.crew.hear(Duration::ZERO);
+            word = self.processes.hear(Duration::ZERO);
         }
     }
 
     fn heed(&mut self, role: Role, line: &str) {
         if line == FINISHED {
-            self.crew.post(role).is_finished = true;
+            self.processes.state(role).is_finished = true;
         } else if let Some(generation) = line.strip_prefix(READY) {
             self.welcome(role, generation.parse().ok());
         } else if let Some(address) = line.strip_prefix(SERVING) {
-            self.crew.post(role).gets_ready();
-            self.chronicle.tell(&format!("watch it live:  rerun {address}"));
+            self.processes.state(role).gets_ready();
+            self.run_log.tell(&format!("watch it live:  rerun {address}"));
             self.open_viewer(address);
         } else {
-            self.chronicle.tell(&format!("{role}: {line}"));
+            self.run_log.tell(&format!("{role}: {line}"));
         }
     }
 
@@ -155,35 +155,35 @@ impl<'a, P: Subject> Supervisor<'a, P> {
 
     /// An island can evolve what comes after a generation, none if it begins from the seed.
     fn welcome(&mut self, role: Role, generation: Option<u32>) {
-        let post = self.crew.post(role);
-        post.generation = generation;
+        let state = self.processes.state(role);
+        state.generation = generation;
         let after = match generation {
             Some(generation) => format!("after generation {generation}"),
             None => "from the seed".to_owned(),
         };
-        if let Some(seconds) = post.gets_ready() {
-            self.chronicle.tell(&format!("{role} goes on {after}, {seconds:.3} s after its death"));
+        if let Some(seconds) = state.gets_ready() {
+            self.run_log.tell(&format!("{role} goes on {after}, {seconds:.3} s after its death"));
         } else if generation.is_some() {
-            self.chronicle.tell(&format!("{role} goes on {after}"));
+            self.run_log.tell(&format!("{role} goes on {after}"));
         }
     }
 
     fn hear_complaint(&mut self, role: Role, line: &str) {
-        self.crew.post(role).complains(line);
+        self.processes.state(role).complains(line);
         let line = ["warning: ", "error: "]
             .iter()
             .find_map(|kind| line.strip_prefix(kind))
             .unwrap_or(line);
-        self.chronicle.warn(&format!("{role}: {line}"));
+        self.run_log.warn(&format!("{role}: {line}"));
     }
 
     fn take_reports(&mut self) -> Result<(), Failure> {
-        for sighting in self.lookout.receive() {
+        for sighting in self.report_reader.receive() {
             let report = &sighting.report;
-            self.crew.post(Role::Island(report.island)).generation = Some(report.generation);
-            self.chronicle.update(self.problem, &sighting, self.watch.seconds());
+            self.processes.state(Role::Island(report.island)).generation = Some(report.generation);
+            self.run_log.update(self.problem, &sighting, self.watch.seconds());
             if let Some(champion) = &sighting.champion {
-                self.podium.receive(self.dir, self.problem, champion)?;
+                self.best_on_disk.receive(self.dir, self.problem, champion)?;
             }
         }
         Ok(())
@@ -191,13 +191,13 @@ impl<'a, P: Subject> Supervisor<'a, P> {
 
     /// Starts somebody again who has died, unless it would die again.
     fn replace(&mut self, role: Role) -> Result<(), Failure> {
-        let Some(status) = self.crew.bury(role)? else { return Ok(()) };
+        let Some(status) = self.processes.wait_for_end(role)? else { return Ok(()) };
         // Its last words are here only now.
         self.listen(Duration::ZERO);
-        match self.crew.post(role).leave_hope(status) {
+        match self.processes.state(role).allows_restart(status) {
             true => self.start_again(role, status)?,
-            false if role == Role::Monitor => self.chronicle.warn(&format!(
-                "the monitor ended {DEATHS_MAX} times ({status}); the run goes on without a film"
+            false if role == Role::Monitor => self.run_log.warn(&format!(
+                "the monitor ended {FAILURES_MAX} times ({status}); the run goes on without a film"
             )),
             false => return Err(self.despair(role, status)),
         }
@@ -205,74 +205,74 @@ impl<'a, P: Subject> Supervisor<'a, P> {
     }
 
     fn start_again(&mut self, role: Role, status: ExitStatus) -> Result<(), Failure> {
-        self.chronicle.warn(&format!("{role} died ({status}); it is started again"));
+        self.run_log.warn(&format!("{role} died ({status}); it is started again"));
         if role != Role::Monitor
-            && let Err(error) = self.harbour.cleanup_dead_nodes()
+            && let Err(error) = self.service_host.cleanup_dead_nodes()
         {
             // Its successor may find a place all the same; if not, it says so itself.
-            self.chronicle.warn(&error.to_string());
+            self.run_log.warn(&error.to_string());
         }
-        self.crew.start(role)
+        self.processes.start(role)
     }
 
     fn despair(&mut self, role: Role, status: ExitStatus) -> Failure {
-        let post = self.crew.post(role);
-        let after = match post.generation {
+        let state = self.processes.state(role);
+        let after = match state.generation {
             Some(generation) => format!("after generation {generation}"),
             None => "before it had evolved anything".to_owned(),
         };
-        let complaint = post.take_complaint();
+        let complaint = state.take_complaint();
         let words = complaint.map_or_else(String::new, |words| {
             format!(", saying “{}”", words.strip_prefix("error: ").unwrap_or(&words))
         });
         Failure::failed(format!(
-            "{role} ended by itself {DEATHS_MAX} times {after} ({status}){words}"
+            "{role} ended by itself {FAILURES_MAX} times {after} ({status}){words}"
         ))
     }
 
     /// Asks everybody to stop, and waits for them.
     fn stop(&mut self, is_finished: bool) {
-        let ear = self.ear.clone();
+        let stop_signal = self.stop_signal.clone();
         let is_island = |role| role != Role::Monitor;
-        self.crew.ask_to_stop(is_island);
-        self.crew.await_end(is_island, LAST_WORDS, || ear.heard_hurry());
-        self.crew.kill(is_island);
-        while self.crew.has(Role::Monitor) && !ear.heard_hurry() {
+        self.processes.ask_to_stop(is_island);
+        self.processes.await_end(is_island, LAST_WORDS, || stop_signal.is_urgent());
+        self.processes.kill(is_island);
+        while self.processes.has(Role::Monitor) && !stop_signal.is_urgent() {
             self.let_monitor_end(if is_finished { LAST_REEL } else { LAST_WORDS });
         }
     }
 
     /// The monitor films what is left; if it dies over it, another one does.
     fn let_monitor_end(&mut self, most: Duration) {
-        let ear = self.ear.clone();
+        let stop_signal = self.stop_signal.clone();
         let is_monitor = |role| role == Role::Monitor;
-        self.crew.ask_to_stop(is_monitor);
-        let is_quick = self.crew.await_end(is_monitor, SOON, || ear.heard_hurry());
+        self.processes.ask_to_stop(is_monitor);
+        let is_quick = self.processes.await_end(is_monitor, SOON, || stop_signal.is_urgent());
         if !is_quick {
-            self.chronicle.tell(match P::HAS_BODIES {
+            self.run_log.tell(match P::HAS_BODIES {
                 true => "the monitor films the last champions …",
                 false => "the monitor records the last generations …",
             });
         }
-        if !is_quick && !self.crew.await_end(is_monitor, most, || ear.heard_hurry()) {
-            self.chronicle.warn("the monitor was still filming and was stopped; the film has gaps");
-            return self.crew.kill(is_monitor);
+        if !is_quick && !self.processes.await_end(is_monitor, most, || stop_signal.is_urgent()) {
+            self.run_log.warn("the monitor was still filming and was stopped; the film has gaps");
+            return self.processes.kill(is_monitor);
         }
-        let Ok(Some(status)) = self.crew.bury(Role::Monitor) else { return };
+        let Ok(Some(status)) = self.processes.wait_for_end(Role::Monitor) else { return };
         self.listen(Duration::ZERO);
         let fails = !status.success();
-        if fails && self.crew.post(Role::Monitor).leave_hope(status) {
+        if fails && self.processes.state(Role::Monitor).allows_restart(status) {
             if let Err(failure) = self.start_again(Role::Monitor, status) {
-                self.chronicle.warn(&failure.message);
+                self.run_log.warn(&failure.message);
             }
         } else if fails {
-            self.chronicle.warn(&format!("the monitor failed ({status}); the film has gaps"));
+            self.run_log.warn(&format!("the monitor failed ({status}); the film has gaps"));
         }
     }
 }
 
 /// What a run begins with.
-fn overture(config: &Config, inhabitants: &str, dir: &RunDir) -> String {
+fn opening_line(config: &Config, inhabitants: &str, dir: &RunDir) -> String {
     let Config { islands, population, generations, seed, .. } = config;
     format!(
         "{islands} islands × {population} {inhabitants} evolve for {generations} generations, seed {}, in {}",

@@ -7,9 +7,9 @@ pub mod toy;
 mod world;
 
 use super::inbox::WINDOW;
-use super::voyage::PATIENCE;
+use super::protocol::PATIENCE;
 use super::{
-    Archipelago, Arrival, Deed, Digest, ExchangeMode, Migration, Outbox, Voyage, lockstep,
+    Action, Archipelago, Arrival, Digest, ExchangeMode, Migration, Outbox, Protocol, lockstep,
 };
 use crate::rng::{Purpose, Source, Stream};
 use rand::RngExt;
@@ -102,7 +102,7 @@ fn try_schedule(seed: u64, change: impl Fn(&mut Schedule)) -> Tally {
     let mut schedule = draw(&mut rng);
     change(&mut schedule);
     let mut world = World::new(&schedule, rng);
-    let islands = world.run(DEADLINE).expect("every voyage ends");
+    let islands = world.run(DEADLINE).expect("every protocol ends");
     let Schedule { archipelago, generations, .. } = &schedule;
     let reference = match archipelago.migration.exchange {
         ExchangeMode::Sync => lockstep::run(&Toy, archipelago, *generations, |_| ()),
@@ -175,43 +175,43 @@ fn outbox(epoch: u32) -> Outbox<Bit> {
     Outbox { island: 0, epoch, migrants: Vec::new() }
 }
 
-fn ask(epoch: u32) -> Deed<Bit> {
-    Deed::Ask { sources: vec![0], epoch }
+fn ask(epoch: u32) -> Action<Bit> {
+    Action::Ask { sources: vec![0], epoch }
 }
 
 #[test]
 fn an_island_asks_when_its_patience_is_at_an_end_and_again_each_time() {
     let pair = pair();
-    let mut voyage = Voyage::begin(&Toy, &pair, 1, 9, None);
-    assert_eq!((voyage.island(), voyage.waits_for()), (None, None));
+    let mut protocol = Protocol::begin(&Toy, &pair, 1, 9, None);
+    assert_eq!((protocol.island(), protocol.waits_for()), (None, None));
     let start = Duration::from_secs(77);
     let early = PATIENCE - Duration::from_nanos(1);
     for generation in [0, 1] {
-        let Deed::Evolved(step) = voyage.advance(start) else { panic!("it need not wait") };
+        let Action::Evolved(step) = protocol.advance(start) else { panic!("it need not wait") };
         assert_eq!(step.report.generation, generation);
     }
-    assert_eq!(voyage.waits_for(), Some((0, vec![0])));
-    assert_eq!(voyage.advance(start), Deed::Wait);
-    assert_eq!(voyage.advance(start + early), Deed::Wait);
-    assert_eq!(voyage.receive(outbox(1)), Arrival::Kept);
-    assert_eq!(voyage.advance(start + PATIENCE), ask(0), "another epoch is no help");
-    assert_eq!(voyage.advance(start + PATIENCE + early), Deed::Wait);
-    assert_eq!(voyage.advance(start + 2 * PATIENCE), ask(0));
-    assert_eq!(voyage.receive(outbox(0)), Arrival::Kept);
+    assert_eq!(protocol.waits_for(), Some((0, vec![0])));
+    assert_eq!(protocol.advance(start), Action::Wait);
+    assert_eq!(protocol.advance(start + early), Action::Wait);
+    assert_eq!(protocol.receive(outbox(1)), Arrival::Kept);
+    assert_eq!(protocol.advance(start + PATIENCE), ask(0), "another epoch is no help");
+    assert_eq!(protocol.advance(start + PATIENCE + early), Action::Wait);
+    assert_eq!(protocol.advance(start + 2 * PATIENCE), ask(0));
+    assert_eq!(protocol.receive(outbox(0)), Arrival::Kept);
     for _ in [0, 1] {
-        assert!(matches!(voyage.advance(start + 3 * PATIENCE), Deed::Evolved(_)));
+        assert!(matches!(protocol.advance(start + 3 * PATIENCE), Action::Evolved(_)));
     }
-    assert_eq!(voyage.advance(start + 9 * PATIENCE), Deed::Wait, "each wait begins anew");
+    assert_eq!(protocol.advance(start + 9 * PATIENCE), Action::Wait, "each wait begins anew");
 }
 
 #[test]
 fn a_reborn_island_asks_at_once_but_only_once() {
     let pair = pair();
     let saved = lockstep::run(&Toy, &pair, 5, |_| ()).pop();
-    let mut voyage = Voyage::begin(&Toy, &pair, 1, 9, saved);
-    assert_eq!(voyage.receive(outbox(3)), Arrival::Stale);
-    assert_eq!(voyage.advance(Duration::ZERO), ask(4));
-    assert_eq!(voyage.advance(Duration::ZERO), Deed::Wait);
+    let mut protocol = Protocol::begin(&Toy, &pair, 1, 9, saved);
+    assert_eq!(protocol.receive(outbox(3)), Arrival::Stale);
+    assert_eq!(protocol.advance(Duration::ZERO), ask(4));
+    assert_eq!(protocol.advance(Duration::ZERO), Action::Wait);
 }
 
 #[test]
@@ -219,8 +219,8 @@ fn an_island_that_has_arrived_stays_there() {
     let pair = pair();
     let saved = lockstep::run(&Toy, &pair, 5, |_| ()).pop();
     for generations in [4, 5] {
-        let mut voyage = Voyage::begin(&Toy, &pair, 1, generations, saved.clone());
-        assert_eq!(voyage.advance(Duration::ZERO), Deed::Arrived);
-        assert_eq!((voyage.island(), voyage.waits_for()), (saved.as_ref(), None));
+        let mut protocol = Protocol::begin(&Toy, &pair, 1, generations, saved.clone());
+        assert_eq!(protocol.advance(Duration::ZERO), Action::Arrived);
+        assert_eq!((protocol.island(), protocol.waits_for()), (saved.as_ref(), None));
     }
 }

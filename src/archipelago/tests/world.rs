@@ -3,7 +3,7 @@
 use super::sea::{Sea, Weather};
 use super::toy::{Bit, Toy};
 use crate::archipelago::arrivals::check_record;
-use crate::archipelago::{Archipelago, Arrival, Arrivals, Deed, Island, Outbox, Step, Voyage};
+use crate::archipelago::{Action, Archipelago, Arrival, Arrivals, Island, Outbox, Protocol, Step};
 use crate::rng::Stream;
 use rand::RngExt;
 use std::collections::{BTreeMap, VecDeque};
@@ -59,7 +59,7 @@ struct Host<'a> {
 
 /// What dies.
 struct Process<'a> {
-    voyage: Voyage<'a, Toy>,
+    protocol: Protocol<'a, Toy>,
     effects: VecDeque<Effect>,
     has_arrived: bool,
 }
@@ -151,7 +151,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// Begins a voyage from the newest checkpoint that is whole.
+    /// Begins from the newest checkpoint that is whole.
     fn bear(&mut self, island: u32) {
         let Schedule { archipelago, generations, window, history, damage, .. } = self.schedule;
         let host = &mut self.hosts[island as usize];
@@ -164,10 +164,10 @@ impl<'a> World<'a> {
         let unsent = host.journal.len().saturating_sub(*history);
         let effects = host.journal[unsent..].iter().cloned().map(Effect::SendAgain).collect();
         let from_seed = saved.is_none();
-        let voyage = Voyage::begin(&Toy, archipelago, island, *generations, saved);
+        let protocol = Protocol::begin(&Toy, archipelago, island, *generations, saved);
         assert_eq!(check_record(&host.record, archipelago, island), Ok(()));
-        let voyage = voyage.with_window(*window).with_record(host.record.clone());
-        host.process = Some(Process { voyage, effects, has_arrived: false });
+        let protocol = protocol.with_window(*window).with_record(host.record.clone());
+        host.process = Some(Process { protocol, effects, has_arrived: false });
         match kept {
             0 => {}
             _ if from_seed => self.count("born from the seed again"),
@@ -185,17 +185,17 @@ impl<'a> World<'a> {
         let Host { journal, process, .. } = &mut self.hosts[island as usize];
         let process = process.as_mut().expect("only the living look");
         let arrivals: Vec<Arrival> =
-            arrived.into_iter().map(|outbox| process.voyage.receive(outbox)).collect();
-        let deed = process.voyage.advance(now);
-        match deed {
-            Deed::Recall(outboxes) => return self.recall(island, &outboxes),
-            Deed::Record(arrivals) => process.effects.push_back(Effect::Record(arrivals)),
-            Deed::Evolved(step) => process.has_evolved(*step, self.schedule),
-            Deed::Ask { sources, epoch } => {
+            arrived.into_iter().map(|outbox| process.protocol.receive(outbox)).collect();
+        let action = process.protocol.advance(now);
+        match action {
+            Action::Recall(outboxes) => return self.recall(island, &outboxes),
+            Action::Record(arrivals) => process.effects.push_back(Effect::Record(arrivals)),
+            Action::Evolved(step) => process.has_evolved(*step, self.schedule),
+            Action::Ask { sources, epoch } => {
                 process.effects.extend(sources.into_iter().map(|from| Effect::Ask(from, epoch)));
             }
-            Deed::Wait => assert!(process.voyage.waits_for().is_some()),
-            Deed::Arrived => process.has_arrived = true,
+            Action::Wait => assert!(process.protocol.waits_for().is_some()),
+            Action::Arrived => process.has_arrived = true,
         }
         let since = asked.map_or(journal.len(), |epoch| journal.len().min(epoch as usize));
         process.effects.extend(journal[since..].iter().cloned().map(Effect::SendAgain));
@@ -216,7 +216,7 @@ impl<'a> World<'a> {
         for &(source, epoch) in outboxes {
             let outbox = self.hosts[source as usize].journal[epoch as usize].clone();
             let process = self.hosts[island as usize].process.as_mut();
-            process.expect("only the living recall").voyage.recall(outbox);
+            process.expect("only the living recall").protocol.recall(outbox);
         }
     }
 
@@ -268,7 +268,7 @@ impl Host<'_> {
 
 impl Process<'_> {
     fn has_evolved(&mut self, step: Step<Bit>, schedule: &Schedule) {
-        assert_eq!(self.voyage.island(), Some(&step.island));
+        assert_eq!(self.protocol.island(), Some(&step.island));
         let generation = step.island.generation;
         let is_last = generation == schedule.generations;
         let is_due = is_last || generation.is_multiple_of(schedule.checkpoint_interval);
@@ -287,7 +287,7 @@ impl Process<'_> {
             Some(Effect::SendAgain(_)) => "died before it sent again",
             Some(Effect::Ask(..)) => "died before it asked",
             None if self.has_arrived => "died at its destination",
-            None if self.voyage.waits_for().is_some() => "died while it waited",
+            None if self.protocol.waits_for().is_some() => "died while it waited",
             None => "died between two generations",
         }
     }

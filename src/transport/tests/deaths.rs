@@ -37,7 +37,7 @@ fn live_and_die(domain: &Domain, before: &BTreeSet<PathBuf>) -> Vec<PathBuf> {
 
 #[test]
 fn whatever_object_an_island_is_killed_over_its_place_becomes_free() {
-    let (domain, _, harbour) = launch(15, 2);
+    let (domain, _, service_host) = launch(15, 2);
     let before = objects(&domain);
     for victim in 0..=OBJECTS_OF_TWO {
         let left = live_and_die(&domain, &before);
@@ -46,7 +46,7 @@ fn whatever_object_an_island_is_killed_over_its_place_becomes_free() {
         for path in victims {
             fs::File::create(path).unwrap();
         }
-        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 2, "over {victims:?}");
+        assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 2, "over {victims:?}");
         assert_eq!(objects(&domain), before, "over {victims:?}");
     }
     live_and_die(&domain, &before);
@@ -54,7 +54,7 @@ fn whatever_object_an_island_is_killed_over_its_place_becomes_free() {
 
 #[test]
 fn an_island_may_be_killed_at_any_instant() {
-    let (domain, archipelago, harbour) = launch(16, 2);
+    let (domain, archipelago, service_host) = launch(16, 2);
     let exchange = Exchange::<TestGene>::open(&domain, &archipelago, 1).unwrap();
     let before = objects(&domain);
     let mut instants = ChaCha8Rng::seed_from_u64(16);
@@ -67,8 +67,8 @@ fn an_island_may_be_killed_at_any_instant() {
             exchange.receive();
         }
         kill(child);
-        assert!(harbour.cleanup_dead_nodes().unwrap() <= 1, "in life {life}");
-        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 0, "in life {life}");
+        assert!(service_host.cleanup_dead_nodes().unwrap() <= 1, "in life {life}");
+        assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 0, "in life {life}");
         // A connection stays until what came through it is read.
         exchange.receive();
         exchange.wait(Duration::ZERO).unwrap();
@@ -82,7 +82,7 @@ fn an_island_may_be_killed_at_any_instant() {
 
 #[test]
 fn what_was_only_begun_at_death_is_cleaned_up_too() {
-    let (domain, _, harbour) = launch(18, 2);
+    let (domain, _, service_host) = launch(18, 2);
     let before = objects(&domain);
     live_and_die(&domain, &before);
     let files = |folder: &Path| -> Vec<PathBuf> {
@@ -90,7 +90,7 @@ fn what_was_only_begun_at_death_is_cleaned_up_too() {
     };
     let nodes = domain.root().join("nodes");
     let homes = files(&nodes).into_iter().filter(|path| path.is_dir());
-    // The harbour has no port.
+    // The service host has no port.
     let tag = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "port_tag");
     let tags: Vec<_> = homes.filter_map(|home| files(&home).into_iter().find(tag)).collect();
     assert_eq!(tags.len(), 2);
@@ -105,7 +105,7 @@ fn what_was_only_begun_at_death_is_cleaned_up_too() {
             fs::write(Path::new("/dev/shm").join(domain.prefix() + &name), [1]).unwrap();
         }
     }
-    assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 2);
-    assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 0);
+    assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 2);
+    assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 0);
     assert_eq!(objects(&domain), before);
 }

@@ -6,7 +6,7 @@ use crate::archipelago::ExchangeMode;
 /// Opens all islands of an archipelago at once, lets each send one outbox, and checks who got it.
 fn exchange_all(test: u32, archipelago: &Archipelago) {
     let (domain, graph) = (domain(test), archipelago.graph());
-    let harbour = Harbour::<TestGene>::create(&domain, archipelago).unwrap();
+    let service_host = ServiceHost::<TestGene>::create(&domain, archipelago).unwrap();
     let islands = 0..archipelago.islands;
     let open = |island| Exchange::open(&domain, archipelago, island).unwrap();
     let exchanges: Vec<Exchange<TestGene>> = islands.clone().map(open).collect();
@@ -27,7 +27,7 @@ fn exchange_all(test: u32, archipelago: &Archipelago) {
         assert_eq!(exchange.requests(), asked, "{}", archipelago.topology);
     }
     drop(exchanges);
-    harbour.close().unwrap();
+    service_host.close().unwrap();
     assert_eq!(remains(&domain), [""; 0]);
 }
 
@@ -43,7 +43,7 @@ fn a_process_has_no_more_files_open_than_were_asked_for() {
     let archipelago = Archipelago { topology: Topology::Full, ..archipelago(12) };
     let domain = domain(41);
     let plan = Plan::new(&domain, &archipelago).unwrap();
-    let harbour = Harbour::<TestGene>::create(&domain, &archipelago).unwrap();
+    let service_host = ServiceHost::<TestGene>::create(&domain, &archipelago).unwrap();
     let open = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
     let files = || fs::read_dir("/proc/self/fd").unwrap().count();
     let before = files();
@@ -55,7 +55,7 @@ fn a_process_has_no_more_files_open_than_were_asked_for() {
     let taken = files().saturating_sub(before) as u64 / 12;
     assert!(taken < plan.files(), "{taken} of {}", plan.files());
     assert!(2 * taken > plan.files() - 128, "{taken} of {}", plan.files());
-    drop((exchanges, harbour));
+    drop((exchanges, service_host));
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn where_nobody_waits_the_newest_outboxes_push_older_ones_out() {
     let domain = domain(43);
     let mut archipelago = archipelago(2);
     archipelago.migration.exchange = ExchangeMode::Async;
-    let _harbour = Harbour::<TestGene>::create(&domain, &archipelago).unwrap();
+    let _host = ServiceHost::<TestGene>::create(&domain, &archipelago).unwrap();
     let open = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
     let [sender, reader] = [0, 1].map(open);
     sender.wait(Duration::ZERO).unwrap();

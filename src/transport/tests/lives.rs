@@ -46,21 +46,21 @@ pub fn kill(mut child: Child) {
 
 #[test]
 fn an_island_that_is_killed_can_be_born_again_and_again() {
-    let (domain, archipelago, harbour) = launch(14, 2);
+    let (domain, archipelago, service_host) = launch(14, 2);
     let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
     for life in 0..6 {
         let child = give_birth(&domain, 0);
         hear(&exchange);
         kill(child);
-        assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
+        assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 1, "in life {life}");
     }
     drop(exchange);
-    harbour.close().unwrap();
+    service_host.close().unwrap();
     assert_eq!(remains(&domain), [""; 0]);
 }
 
 /// An island that does nothing but exchange, as the real one does it.
-fn sail(
+fn evolve(
     domain: &Domain,
     archipelago: &Archipelago,
     island: u32,
@@ -114,12 +114,12 @@ fn answer(exchange: &Exchange<TestGene>, island: u32, published: u32) {
 
 #[test]
 fn every_epoch_is_taken_exactly_once_though_every_seventh_outbox_is_lost() {
-    let (domain, archipelago, _harbour) = launch(13, 3);
+    let (domain, archipelago, _host) = launch(13, 3);
     let expected: Vec<u32> = (0..200).collect();
     std::thread::scope(|scope| {
         let sail = |island| {
             let (domain, archipelago) = (&domain, &archipelago);
-            scope.spawn(move || sail(domain, archipelago, island, 200, 7))
+            scope.spawn(move || evolve(domain, archipelago, island, 200, 7))
         };
         for island in [0, 1, 2].map(sail) {
             assert_eq!(island.join().unwrap(), expected);

@@ -65,10 +65,10 @@ fn domain(test: u32) -> Domain {
     Domain::new(u64::from(test) << 32 | u64::from(std::process::id()))
 }
 
-fn launch(test: u32, islands: u32) -> (Domain, Archipelago, Harbour<TestGene>) {
+fn launch(test: u32, islands: u32) -> (Domain, Archipelago, ServiceHost<TestGene>) {
     let (domain, archipelago) = (domain(test), archipelago(islands));
-    let harbour = Harbour::create(&domain, &archipelago).unwrap();
-    (domain, archipelago, harbour)
+    let service_host = ServiceHost::create(&domain, &archipelago).unwrap();
+    (domain, archipelago, service_host)
 }
 
 fn individual(island: u32, epoch: u32, index: u32) -> Individual<TestGene> {
@@ -123,7 +123,7 @@ fn remains(domain: &Domain) -> Vec<String> {
 
 #[test]
 fn outboxes_arrive_with_the_same_bits() {
-    let (domain, archipelago, _harbour) = launch(1, 2);
+    let (domain, archipelago, _host) = launch(1, 2);
     let sender = Exchange::open(&domain, &archipelago, 0).unwrap();
     let receiver = Exchange::open(&domain, &archipelago, 1).unwrap();
     let nobody = Outbox { migrants: Vec::new(), ..outbox(0, 2) };
@@ -138,7 +138,7 @@ fn outboxes_arrive_with_the_same_bits() {
 
 #[test]
 fn who_opens_late_gets_what_was_sent_before() {
-    let (domain, archipelago, _harbour) = launch(2, 2);
+    let (domain, archipelago, _host) = launch(2, 2);
     let sender = Exchange::open(&domain, &archipelago, 0).unwrap();
     for epoch in 0..3 {
         assert_eq!(sender.publish(&outbox(0, epoch)).unwrap(), 0);
@@ -150,7 +150,7 @@ fn who_opens_late_gets_what_was_sent_before() {
 
 #[test]
 fn a_reader_that_is_full_holds_nobody_up_and_gets_the_rest_when_it_asks() {
-    let (domain, archipelago, _harbour) = launch(3, 2);
+    let (domain, archipelago, _host) = launch(3, 2);
     let sender = Exchange::open(&domain, &archipelago, 0).unwrap();
     let receiver = Exchange::<TestGene>::open(&domain, &archipelago, 1).unwrap();
     let room = 2 * Plan::new(&domain, &archipelago).unwrap().history as u32;
@@ -171,7 +171,7 @@ fn a_reader_that_is_full_holds_nobody_up_and_gets_the_rest_when_it_asks() {
 
 #[test]
 fn requests_that_cannot_be_meant_are_ignored() {
-    let (domain, archipelago, _harbour) = launch(4, 3);
+    let (domain, archipelago, _host) = launch(4, 3);
     let asked = Exchange::<TestGene>::open(&domain, &archipelago, 0).unwrap();
     let plan = Plan::new(&domain, &archipelago).unwrap();
     let node = services::join(&domain).unwrap();
@@ -185,8 +185,8 @@ fn requests_that_cannot_be_meant_are_ignored() {
 
 #[test]
 fn reports_arrive_with_and_without_a_champion() {
-    let (domain, archipelago, _harbour) = launch(5, 2);
-    let lookout = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
+    let (domain, archipelago, _host) = launch(5, 2);
+    let report_reader = ReportReader::<TestGene>::open(&domain, &archipelago).unwrap();
     let exchange = Exchange::open(&domain, &archipelago, 1).unwrap();
     let validated = Some(Fitness::new(0.25));
     let champion = Champion { generation: 7, individual: individual(0, 3, 1), validated };
@@ -194,22 +194,22 @@ fn reports_arrive_with_and_without_a_champion() {
     exchange.report(&report(1, 8), 0.25, None).unwrap();
     let first = Sighting { report: report(1, 7), seconds: 0.5, champion: Some(champion) };
     let second = Sighting { report: report(1, 8), seconds: 0.25, champion: None };
-    assert_eq!(lookout.receive(), [first, second]);
-    assert_eq!(lookout.receive(), []);
+    assert_eq!(report_reader.receive(), [first, second]);
+    assert_eq!(report_reader.receive(), []);
 }
 
 #[test]
 fn who_does_not_look_misses_the_oldest_reports_and_holds_nobody_up() {
-    let (domain, archipelago, _harbour) = launch(6, 1);
-    let lookout = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
+    let (domain, archipelago, _host) = launch(6, 1);
+    let report_reader = ReportReader::<TestGene>::open(&domain, &archipelago).unwrap();
     let exchange = Exchange::<TestGene>::open(&domain, &archipelago, 0).unwrap();
     for generation in 0..1_000 {
         exchange.report(&report(0, generation), 0.0, None).unwrap();
     }
-    let seen: Vec<u32> = lookout.receive().iter().map(|s| s.report.generation).collect();
+    let seen: Vec<u32> = report_reader.receive().iter().map(|s| s.report.generation).collect();
     assert!(!seen.is_empty() && seen == (1_000 - seen.len() as u32..1_000).collect::<Vec<_>>());
 
-    let late = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
+    let late = ReportReader::<TestGene>::open(&domain, &archipelago).unwrap();
     exchange.wait(Duration::ZERO).unwrap();
     let seen = late.receive();
     assert_eq!(seen.last().unwrap().report.generation, 999, "who comes late sees where it is");
@@ -277,7 +277,7 @@ fn every_malformed_report_is_rejected() {
 
 #[test]
 fn a_malformed_outbox_in_shared_memory_is_rejected_and_does_not_harm_the_next() {
-    let (domain, archipelago, _harbour) = launch(7, 2);
+    let (domain, archipelago, _host) = launch(7, 2);
     let receiver = Exchange::<TestGene>::open(&domain, &archipelago, 1).unwrap();
     let plan = Plan::new(&domain, &archipelago).unwrap();
     let node = services::join(&domain).unwrap();
@@ -297,7 +297,7 @@ fn a_malformed_outbox_in_shared_memory_is_rejected_and_does_not_harm_the_next() 
 
 #[test]
 fn what_breaks_the_limits_is_not_sent() {
-    let (domain, archipelago, _harbour) = launch(8, 2);
+    let (domain, archipelago, _host) = launch(8, 2);
     let exchange = Exchange::open(&domain, &archipelago, 0).unwrap();
     let refused = |outbox: Outbox<TestGene>| exchange.publish(&outbox).unwrap_err().to_string();
     assert!(refused(outbox(1, 0)).contains("island"));
@@ -324,24 +324,24 @@ fn without_a_launcher_nothing_opens_and_the_error_says_so() {
 
 #[test]
 fn a_harbour_leaves_nothing_behind() {
-    let (domain, archipelago, harbour) = launch(10, 3);
+    let (domain, archipelago, service_host) = launch(10, 3);
     let exchange = Exchange::open(&domain, &archipelago, 0).unwrap();
     exchange.publish(&outbox(0, 0)).unwrap();
     assert!(remains(&domain).len() > 3);
-    let again = Harbour::<TestGene>::create(&domain, &archipelago).unwrap_err().to_string();
+    let again = ServiceHost::<TestGene>::create(&domain, &archipelago).unwrap_err().to_string();
     assert!(again.contains("File exists"), "{again}");
-    assert_eq!(harbour.cleanup_dead_nodes().unwrap(), 0, "nobody is dead");
+    assert_eq!(service_host.cleanup_dead_nodes().unwrap(), 0, "nobody is dead");
     drop(exchange);
-    harbour.close().unwrap();
+    service_host.close().unwrap();
     assert_eq!(remains(&domain), [""; 0]);
-    drop(Harbour::<TestGene>::create(&domain, &archipelago).unwrap());
+    drop(ServiceHost::<TestGene>::create(&domain, &archipelago).unwrap());
     assert_eq!(remains(&domain), [""; 0]);
 }
 
 #[test]
 fn folder_and_objects_are_for_this_user_only() {
     use std::os::unix::fs::PermissionsExt;
-    let (domain, archipelago, _harbour) = launch(11, 2);
+    let (domain, archipelago, _host) = launch(11, 2);
     let exchange = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
     let exchanges = [0, 1].map(exchange);
     exchanges[0].wait(Duration::ZERO).unwrap();
@@ -354,7 +354,7 @@ fn folder_and_objects_are_for_this_user_only() {
 
 #[test]
 fn an_island_knows_how_much_to_publish_again() {
-    let (domain, archipelago, _harbour) = launch(17, 3);
+    let (domain, archipelago, _host) = launch(17, 3);
     let exchange = Exchange::<TestGene>::open(&domain, &archipelago, 0).unwrap();
     // Both others may be two epochs ahead; and two more.
     assert_eq!(exchange.history(), 6);
@@ -362,22 +362,22 @@ fn an_island_knows_how_much_to_publish_again() {
 
 #[test]
 fn a_run_takes_no_more_shared_memory_than_was_asked_for() {
-    let (domain, archipelago, _harbour) = launch(12, 3);
-    let lookout = Lookout::<TestGene>::open(&domain, &archipelago).unwrap();
+    let (domain, archipelago, _host) = launch(12, 3);
+    let report_reader = ReportReader::<TestGene>::open(&domain, &archipelago).unwrap();
     let exchange = |island| Exchange::<TestGene>::open(&domain, &archipelago, island).unwrap();
     let exchanges: Vec<_> = (0..3).map(exchange).collect();
     let size = |name| fs::metadata(format!("/dev/shm/{name}")).map_or(0, |status| status.len());
     let taken: u64 = remains(&domain).into_iter().map(size).sum();
-    let asked = Harbour::<TestGene>::bytes_needed(&domain, &archipelago).unwrap();
+    let asked = ServiceHost::<TestGene>::bytes_needed(&domain, &archipelago).unwrap();
     assert!(taken > 0 && 2 * taken <= asked, "{taken} of {asked} bytes, without any successor");
     assert!(asked < 10 * taken, "{taken} of {asked} bytes: small machines must not be turned away");
-    drop((exchanges, lookout));
+    drop((exchanges, report_reader));
 }
 
 #[test]
 fn an_end_can_be_lent_to_another_thread() {
     fn sendable<T: Send + Sync>() {}
     sendable::<Exchange<TestGene>>();
-    sendable::<Lookout<TestGene>>();
-    sendable::<Harbour<TestGene>>();
+    sendable::<ReportReader<TestGene>>();
+    sendable::<ServiceHost<TestGene>>();
 }

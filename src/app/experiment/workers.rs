@@ -3,7 +3,7 @@
 use super::super::Failure;
 use super::super::config::Config;
 use super::super::console::Stopwatch;
-use super::super::kinship::Ear;
+use super::super::parent_link::StopSignal;
 use super::trial::{Trial, run_one};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
@@ -19,7 +19,7 @@ pub struct Job {
     pub config: Config,
 }
 
-/// Does all runs that are not stopped by `ear`, so many at a time, and hands each to `receive` as it finishes, with the
+/// Does all runs that are not stopped by `stop`, so many at a time, and hands each to `receive` as it finishes, with the
 /// seconds that it took.
 ///
 /// # Errors
@@ -28,17 +28,17 @@ pub fn work_off(
     jobs: &[Job],
     evaluations: Option<u64>,
     threads: usize,
-    ear: &Ear,
+    stop: &StopSignal,
     mut receive: impl FnMut(&Job, Trial, f64) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
     let (halted, begun) = (AtomicBool::new(false), AtomicUsize::new(0));
-    let crew = Crew { jobs, evaluations, ear, halted: &halted, begun: &begun };
+    let workers = Workers { jobs, evaluations, stop, halted: &halted, begun: &begun };
     let pools: Vec<_> = (0..threads.min(jobs.len())).map(|_| lonely()).collect::<Result<_, _>>()?;
     std::thread::scope(|scope| {
         let (sender, finished) = channel();
         for pool in pools {
             let sender = sender.clone();
-            scope.spawn(move || pool.install(|| crew.work(&sender)));
+            scope.spawn(move || pool.install(|| workers.work(&sender)));
         }
         drop(sender);
         let mut outcome = Ok(());
@@ -59,17 +59,17 @@ fn lonely() -> Result<rayon::ThreadPool, Failure> {
 }
 
 #[derive(Clone, Copy)]
-struct Crew<'a> {
+struct Workers<'a> {
     jobs: &'a [Job],
     evaluations: Option<u64>,
-    ear: &'a Ear,
+    stop: &'a StopSignal,
     halted: &'a AtomicBool,
     begun: &'a AtomicUsize,
 }
 
-impl Crew<'_> {
+impl Workers<'_> {
     fn work(self, sender: &Sender<(usize, Trial, f64)>) {
-        let is_stopped = || self.ear.heard_stop() || self.halted.load(Ordering::Relaxed);
+        let is_stopped = || self.stop.is_raised() || self.halted.load(Ordering::Relaxed);
         while !is_stopped() {
             let index = self.begun.fetch_add(1, Ordering::Relaxed);
             let Some(job) = self.jobs.get(index) else { return };

@@ -4,8 +4,8 @@ use super::super::Failure;
 use super::super::cli::{ViewArgs, Watching};
 use super::super::config::Config;
 use super::super::console::Stopwatch;
-use super::kin::{Kin, Role, Word};
-use super::mortality::Deaths;
+use super::child::{ChildProcess, Role, Word};
+use super::restart_policy::RestartPolicy;
 use crate::store::RunDir;
 use std::collections::BTreeMap;
 use std::process::ExitStatus;
@@ -16,22 +16,22 @@ use std::time::Duration;
 const LOOK: Duration = Duration::from_millis(20);
 
 /// All processes of a run but the launcher.
-pub struct Crew {
+pub struct Processes {
     dir: RunDir,
     config: Config,
     view: ViewArgs,
-    posts: BTreeMap<Role, Post>,
+    states: BTreeMap<Role, ProcessState>,
     sender: Sender<(Role, Word)>,
     words: Receiver<(Role, Word)>,
 }
 
 /// What is known of one of them, and of those that came before it.
 #[derive(Default)]
-pub struct Post {
-    kin: Option<Kin>,
-    /// Whether it has died, or will in a moment, and was not buried.
-    has_fallen: bool,
-    deaths: Deaths,
+pub struct ProcessState {
+    child: Option<ChildProcess>,
+    /// Whether it has died, or will in a moment, and was not waited for.
+    is_dead: bool,
+    restart_policy: RestartPolicy,
     /// Since the one before it was found dead, until it is ready to do its work.
     vacant: Option<Stopwatch>,
     /// The last thing that it complained of, but for warnings.
@@ -42,11 +42,11 @@ pub struct Post {
     pub is_finished: bool,
 }
 
-impl Crew {
-    /// A crew of nobody.
+impl Processes {
+    /// No processes yet.
     pub fn new(dir: RunDir, config: Config, view: ViewArgs) -> Self {
         let (sender, words) = channel();
-        Self { dir, config, view, posts: BTreeMap::new(), sender, words }
+        Self { dir, config, view, states: BTreeMap::new(), sender, words }
     }
 
     /// Starts the process for a role, the first or the next.
@@ -54,12 +54,12 @@ impl Crew {
     /// # Errors
     /// If no process can be started.
     pub fn start(&mut self, role: Role) -> Result<(), Failure> {
-        let kin = Kin::start(role, &self.arguments(role), &self.sender)?;
-        let post = self.posts.entry(role).or_default();
-        post.kin = Some(kin);
-        post.has_fallen = false;
-        post.is_finished = false;
-        post.complaint = None;
+        let child = ChildProcess::start(role, &self.arguments(role), &self.sender)?;
+        let state = self.states.entry(role).or_default();
+        state.child = Some(child);
+        state.is_dead = false;
+        state.is_finished = false;
+        state.complaint = None;
         Ok(())
     }
 
@@ -69,47 +69,47 @@ impl Crew {
     }
 
     /// What is known of a role.
-    pub fn post(&mut self, role: Role) -> &mut Post {
-        self.posts.entry(role).or_default()
+    pub fn state(&mut self, role: Role) -> &mut ProcessState {
+        self.states.entry(role).or_default()
     }
 
     /// Those who have died, or will in a moment, and were not buried.
-    pub fn fallen(&self) -> Vec<Role> {
-        let fallen = self.posts.iter().filter(|(_, post)| post.has_fallen);
-        fallen.map(|(role, _)| *role).collect()
+    pub fn dead(&self) -> Vec<Role> {
+        let dead = self.states.iter().filter(|(_, state)| state.is_dead);
+        dead.map(|(role, _)| *role).collect()
     }
 
     /// Whether every island has evolved all its generations.
     pub fn is_finished(&self) -> bool {
-        self.islands().all(|post| post.is_finished)
+        self.islands().all(|state| state.is_finished)
     }
 
     /// The last generation that every island has evolved.
     pub fn generation(&self) -> Option<u32> {
-        self.islands().map(|post| post.generation).min().flatten()
+        self.islands().map(|state| state.generation).min().flatten()
     }
 
     /// Whether there is a process for a role.
     pub fn has(&self, role: Role) -> bool {
-        self.posts.get(&role).is_some_and(|post| post.kin.is_some())
+        self.states.get(&role).is_some_and(|state| state.child.is_some())
     }
 
     /// Waits for the end of one that has fallen, and until all that it said can be heard. Nothing if it was
-    /// buried already.
+    /// waited for already.
     ///
     /// # Errors
     /// If it cannot be waited for.
-    pub fn bury(&mut self, role: Role) -> Result<Option<ExitStatus>, Failure> {
-        let post = self.post(role);
-        post.has_fallen = false;
-        let Some(kin) = post.kin.take() else { return Ok(None) };
-        post.vacant = Some(Stopwatch::start());
-        kin.bury().map(Some)
+    pub fn wait_for_end(&mut self, role: Role) -> Result<Option<ExitStatus>, Failure> {
+        let state = self.state(role);
+        state.is_dead = false;
+        let Some(child) = state.child.take() else { return Ok(None) };
+        state.vacant = Some(Stopwatch::start());
+        child.wait_for_end().map(Some)
     }
 
     /// Asks those in the roles that are meant to stop.
     pub fn ask_to_stop(&mut self, is_meant: impl Fn(Role) -> bool) {
-        self.kin(is_meant).filter_map(Option::as_mut).for_each(Kin::ask_to_stop);
+        self.children(is_meant).filter_map(Option::as_mut).for_each(ChildProcess::ask_to_stop);
     }
 
     /// Waits until they have ended, for `most`, unless there is a hurry. Returns whether they have.
@@ -120,7 +120,7 @@ impl Crew {
         in_a_hurry: impl Fn() -> bool,
     ) -> bool {
         let watch = Stopwatch::start();
-        while self.kin(&is_meant).filter_map(Option::as_mut).any(Kin::is_alive) {
+        while self.children(&is_meant).filter_map(Option::as_mut).any(ChildProcess::is_alive) {
             if watch.elapsed() > most || in_a_hurry() {
                 return false;
             }
@@ -131,16 +131,19 @@ impl Crew {
 
     /// Kills those of them who live, and waits for their end.
     pub fn kill(&mut self, is_meant: impl Fn(Role) -> bool) {
-        self.kin(is_meant).for_each(|kin| drop(kin.take()));
+        self.children(is_meant).for_each(|child| drop(child.take()));
     }
 
-    fn kin(&mut self, is_meant: impl Fn(Role) -> bool) -> impl Iterator<Item = &mut Option<Kin>> {
-        let posts = self.posts.iter_mut();
-        posts.filter(move |(role, _)| is_meant(**role)).map(|(_, post)| &mut post.kin)
+    fn children(
+        &mut self,
+        is_meant: impl Fn(Role) -> bool,
+    ) -> impl Iterator<Item = &mut Option<ChildProcess>> {
+        let states = self.states.iter_mut();
+        states.filter(move |(role, _)| is_meant(**role)).map(|(_, state)| &mut state.child)
     }
 
-    fn islands(&self) -> impl Iterator<Item = &Post> {
-        self.posts.iter().filter(|(role, _)| **role != Role::Monitor).map(|(_, post)| post)
+    fn islands(&self) -> impl Iterator<Item = &ProcessState> {
+        self.states.iter().filter(|(role, _)| **role != Role::Monitor).map(|(_, state)| state)
     }
 
     fn arguments(&self, role: Role) -> Vec<String> {
@@ -172,10 +175,10 @@ impl Crew {
     }
 }
 
-impl Post {
+impl ProcessState {
     /// It has died, or will in a moment.
-    pub fn falls(&mut self) {
-        self.has_fallen = true;
+    pub fn dies(&mut self) {
+        self.is_dead = true;
     }
 
     /// Keeps what it complains of, if that may be what it dies of.
@@ -193,8 +196,8 @@ impl Post {
     }
 
     /// Takes note of its death, and returns whether there is hope for a successor.
-    pub fn leave_hope(&mut self, status: ExitStatus) -> bool {
-        self.deaths.leave_hope(status, self.generation)
+    pub fn allows_restart(&mut self, status: ExitStatus) -> bool {
+        self.restart_policy.allows_restart(status, self.generation)
     }
 
     /// It can do its work. Returns how long nobody did, in seconds, if it is a successor.
@@ -217,14 +220,14 @@ mod tests {
 
     #[test]
     fn the_last_complaint_is_the_reason_and_neither_a_warning_nor_a_note() {
-        let mut post = Post::default();
+        let mut state = ProcessState::default();
         for line in ["warning: it waits", "", "thread 'main' panicked at x.rs:1:2:", "no egg"] {
-            post.complains(line);
+            state.complains(line);
         }
-        post.complains("note: run with `RUST_BACKTRACE=1` to display a backtrace");
-        assert_eq!(post.take_complaint().as_deref(), Some("no egg"));
-        post.complains("warning: it waits");
-        assert_eq!(post.take_complaint(), None);
+        state.complains("note: run with `RUST_BACKTRACE=1` to display a backtrace");
+        assert_eq!(state.take_complaint().as_deref(), Some("no egg"));
+        state.complains("warning: it waits");
+        assert_eq!(state.take_complaint(), None);
     }
 
     #[test]

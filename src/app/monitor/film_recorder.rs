@@ -13,7 +13,7 @@ use std::path::Path;
 
 /// A recorder that simulates the champions that will be seen, and no others: filming must cost the islands
 /// little, and a film that is made anew must soon be where the run is.
-pub struct Cinema<P: Subject> {
+pub struct FilmRecorder<P: Subject> {
     problem: P,
     herald: Herald<P>,
     recorder: Recorder,
@@ -32,7 +32,7 @@ pub struct Cinema<P: Subject> {
 /// An island without a better champion for so many generations stagnates.
 const STAGNANT: u32 = 5;
 
-impl<P: Subject> Cinema<P> {
+impl<P: Subject> FilmRecorder<P> {
     /// Begins a recording for the path `recording`, in `folder`, and serves it if wanted; where it cannot be
     /// served, it is only recorded.
     ///

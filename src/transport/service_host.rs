@@ -1,7 +1,7 @@
 //! The launcher's end: the services of a run, from before its first island until after its last.
 
-use super::burial;
 use super::claim::Claim;
+use super::dead_nodes;
 use super::files;
 use super::services::{
     self, Node, OutboxService, Plan, ReportService, RequestService, WakeUpService,
@@ -16,7 +16,7 @@ use crate::evolution::Gene;
 /// When it is dropped nothing of the run is left, neither in shared memory nor in the file system: let all
 /// islands end first.
 #[derive(Debug)]
-pub struct Harbour<G: Gene> {
+pub struct ServiceHost<G: Gene> {
     services: Option<Services<G>>,
     domain: Domain,
     // It tells other launchers that this one lives.
@@ -32,7 +32,7 @@ struct Services<G: Gene> {
     _reports: ReportService<G>,
 }
 
-impl<G: Gene> Harbour<G> {
+impl<G: Gene> ServiceHost<G> {
     /// Creates the domain's folder and every service of the run, once there is memory enough for it. What
     /// killed launchers have left is removed first.
     ///
@@ -46,9 +46,9 @@ impl<G: Gene> Harbour<G> {
         files::provide(plan.files())?;
         let claim = domain.create()?;
         // From here on dropping it removes what was made, also where the rest of the making fails.
-        let mut harbour = Self { services: None, domain: domain.clone(), claim: Some(claim) };
-        harbour.services = Some(Services::create(domain, &plan, archipelago.islands)?);
-        Ok(harbour)
+        let mut service_host = Self { services: None, domain: domain.clone(), claim: Some(claim) };
+        service_host.services = Some(Services::create(domain, &plan, archipelago.islands)?);
+        Ok(service_host)
     }
 
     /// The shared memory that the run needs at most, in bytes.
@@ -67,7 +67,7 @@ impl<G: Gene> Harbour<G> {
     /// If it could not be done, though it was tried several times.
     pub fn cleanup_dead_nodes(&self) -> Result<u64, TransportError> {
         let services = self.services.as_ref();
-        services.map_or(Ok(0), |services| burial::bury_dead(&self.domain, &services.node))
+        services.map_or(Ok(0), |services| dead_nodes::clean_up(&self.domain, &services.node))
     }
 
     /// Ends the services and removes the domain. Dropping does the same and says nothing.
@@ -84,7 +84,7 @@ impl<G: Gene> Harbour<G> {
     }
 }
 
-impl<G: Gene> Drop for Harbour<G> {
+impl<G: Gene> Drop for ServiceHost<G> {
     fn drop(&mut self) {
         // There is nobody left to tell, and what is left over is some files.
         let _ = self.remove();

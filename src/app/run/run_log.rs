@@ -11,12 +11,12 @@ use tracing::Dispatch;
 use tracing::dispatcher::with_default;
 
 /// The teller of one run.
-pub struct Chronicle {
+pub struct RunLog {
     progress: Progress,
     log: Dispatch,
 }
 
-impl Chronicle {
+impl RunLog {
     /// Goes on with the log of the run in `dir`.
     ///
     /// # Errors

@@ -24,42 +24,42 @@ const URGED: u8 = 2;
 /// Who was urged and still has not ended after so long ends at once.
 const LAST_CHANCE: Duration = Duration::from_secs(5);
 
-/// A process's ear: whether it was asked to stop, and whether at once.
+/// Whether this process was asked to stop, and whether at once.
 #[derive(Debug, Clone)]
-pub struct Ear(Arc<AtomicU8>);
+pub struct StopSignal(Arc<AtomicU8>);
 
-impl Ear {
+impl StopSignal {
     /// Ties this process to `parent`, and listens for its word.
     ///
     /// # Errors
     /// If the parent is gone already.
-    pub fn to(parent: i32) -> Result<Self, Failure> {
+    pub fn from_parent(parent: i32) -> Result<Self, Failure> {
         let tied = set_parent_process_death_signal(Some(Signal::KILL));
         tied.map_err(|error| Failure::failed(format!("cannot be tied to the launcher: {error}")))?;
         // The parent may have died before the tie.
         if getppid() != Pid::from_raw(parent) {
             return Err(Failure::failed("the launcher is gone"));
         }
-        let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
-        let told = ear.clone();
+        let stop_signal = Self(Arc::new(AtomicU8::new(UNASKED)));
+        let told = stop_signal.clone();
         std::thread::spawn(move || {
             // The end of the input is the word; an error ends it as well.
             let _ = std::io::copy(&mut std::io::stdin().lock(), &mut std::io::sink());
             told.0.store(ASKED, Ordering::Release);
         });
-        Ok(ear)
+        Ok(stop_signal)
     }
 
-    /// An ear that hears Ctrl-C and a request to terminate, once and twice: for a process that nobody started.
+    /// It is raised by Ctrl-C and a request to terminate, once and twice: for a process that nobody started.
     ///
     /// # Errors
     /// If signals cannot be caught.
-    pub fn to_signals() -> Result<Self, Failure> {
+    pub fn from_signals() -> Result<Self, Failure> {
         use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
         let failed = |error| Failure::failed(format!("cannot catch signals: {error}"));
         let mut signals = Signals::new([SIGINT, SIGTERM, SIGHUP]).map_err(failed)?;
-        let ear = Self(Arc::new(AtomicU8::new(UNASKED)));
-        let told = ear.clone();
+        let stop_signal = Self(Arc::new(AtomicU8::new(UNASKED)));
+        let told = stop_signal.clone();
         std::thread::spawn(move || {
             let mut signals = signals.forever();
             signals.next();
@@ -69,16 +69,16 @@ impl Ear {
             std::thread::sleep(LAST_CHANCE);
             std::process::exit(INTERRUPTED.into());
         });
-        Ok(ear)
+        Ok(stop_signal)
     }
 
     /// Whether to stop.
-    pub fn heard_stop(&self) -> bool {
+    pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Acquire) >= ASKED
     }
 
     /// Whether to stop at once.
-    pub fn heard_hurry(&self) -> bool {
+    pub fn is_urgent(&self) -> bool {
         self.0.load(Ordering::Acquire) >= URGED
     }
 }

@@ -2,18 +2,18 @@
 //! comes out.
 //!
 //! Channels may lose, repeat, delay and reorder what is sent, and every island may die at any time and be
-//! born again from an older state, even from its seed. The voyage ends in the same bits all the same, if its
+//! born again from an older state, even from its seed. The run ends in the same bits all the same, if its
 //! owner keeps five rules:
 //!
 //! 1. An outbox is in the journal, durably, before the state after it is saved: from that state on it is
 //!    never evolved again, and neighbours may need it for as long as the run lasts. It is there before it is
 //!    sent, too, so that the journal knows all that ever travelled.
-//! 2. Who is asked for an epoch sends it and what follows it out of the journal, also when its own voyage
+//! 2. Who is asked for an epoch sends it and what follows it out of the journal, also when its own run
 //!    is over.
-//! 3. What is handed to [`Voyage::begin`] was saved by a voyage of the same island.
-//! 4. [`Voyage::advance`] is called again and again, also while it has nothing to do.
+//! 3. What is handed to [`Protocol::begin`] was saved for the same island.
+//! 4. [`Protocol::advance`] is called again and again, also while it has nothing to do.
 //! 5. Where nobody waits, what an island takes in is in its record, durably, before it is evolved with, and the
-//!    record is handed to [`Voyage::with_record`]. The bits are then those of the records.
+//!    record is handed to [`Protocol::with_record`]. The bits are then those of the records.
 //!
 //! That a reborn island sends again what it sent last is no rule: it only spares its neighbours a request.
 
@@ -28,7 +28,7 @@ use std::time::Duration;
 pub const PATIENCE: Duration = Duration::from_millis(200);
 
 /// An island under way: its state, what it waits for, and how far it has to go.
-pub struct Voyage<'a, P: Problem> {
+pub struct Protocol<'a, P: Problem> {
     problem: &'a P,
     archipelago: &'a Archipelago,
     index: u32,
@@ -50,8 +50,8 @@ enum Intake<G> {
 
 /// What an island does next.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Deed<G> {
-    /// It has evolved a generation. Before its owner calls [`Voyage::advance`] again, it records the generation
+pub enum Action<G> {
+    /// It has evolved a generation. Before its owner calls [`Protocol::advance`] again, it records the generation
     /// and appends the outbox to the journal, and only then sends the outbox, and saves the island where that is
     /// due. An outbox whose epoch the journal has already is the same to the last bit.
     Evolved(Box<Step<G>>),
@@ -62,11 +62,11 @@ pub enum Deed<G> {
         /// The first epoch that is missing.
         epoch: u32,
     },
-    /// It begins an epoch with this, where nobody waits. Before its owner calls [`Voyage::advance`] again, it appends
+    /// It begins an epoch with this, where nobody waits. Before its owner calls [`Protocol::advance`] again, it appends
     /// this to the record and makes it durable.
     Record(Arrivals),
     /// It needs these outboxes again, by sender and epoch, which an earlier life took in. Its owner reads them in the
-    /// senders' journals and hands them to [`Voyage::recall`]; one that is not there will be, when its sender has
+    /// senders' journals and hands them to [`Protocol::recall`]; one that is not there will be, when its sender has
     /// evolved it again.
     Recall(Vec<(u32, u32)>),
     /// There is nothing to do until something arrives, or time goes by.
@@ -75,7 +75,7 @@ pub enum Deed<G> {
     Arrived,
 }
 
-impl<'a, P: Problem> Voyage<'a, P> {
+impl<'a, P: Problem> Protocol<'a, P> {
     /// Island `index` on its way to `generations`, from the state that was `saved` last, which must be
     /// one that [`Island::fits`], or else from the seed.
     pub fn begin(
@@ -108,7 +108,7 @@ impl<'a, P: Problem> Voyage<'a, P> {
         }
     }
 
-    /// The voyage of an island whose earlier lives recorded this, which fits it
+    /// The protocol of an island whose earlier lives recorded this, which fits it
     /// ([`check_record`](super::arrivals::check_record)). Where islands wait for each other there is no record.
     pub fn with_record(mut self, record: Vec<Arrivals>) -> Self {
         if let Intake::Mailbox(mailbox) = &mut self.intake {
@@ -137,7 +137,7 @@ impl<'a, P: Problem> Voyage<'a, P> {
         arrival
     }
 
-    /// Hands in what was read in a journal because of a [`Deed::Recall`].
+    /// Hands in what was read in a journal because of a [`Action::Recall`].
     pub fn recall(&mut self, outbox: Outbox<P::Gene>) {
         if let Intake::Mailbox(mailbox) = &mut self.intake {
             mailbox.recall(outbox);
@@ -145,19 +145,19 @@ impl<'a, P: Problem> Voyage<'a, P> {
     }
 
     /// Does what is next, and says what that was. `now` is a reading of a monotonic clock, from any start.
-    pub fn advance(&mut self, now: Duration) -> Deed<P::Gene> {
+    pub fn advance(&mut self, now: Duration) -> Action<P::Gene> {
         if self.has_arrived() {
-            return Deed::Arrived;
+            return Action::Arrived;
         }
         let beginning = self.beginning();
         if let (Intake::Mailbox(mailbox), Some(generation)) = (&mut self.intake, beginning) {
             match mailbox.prepare(generation) {
-                Some(Errand::Record(arrivals)) => return Deed::Record(arrivals),
-                Some(Errand::Recall(outboxes)) => return Deed::Recall(outboxes),
+                Some(Errand::Record(arrivals)) => return Action::Record(arrivals),
+                Some(Errand::Recall(outboxes)) => return Action::Recall(outboxes),
                 None => {}
             }
         } else if let Some((epoch, sources)) = self.waits_for() {
-            return if self.asks(now) { Deed::Ask { sources, epoch } } else { Deed::Wait };
+            return if self.asks(now) { Action::Ask { sources, epoch } } else { Action::Wait };
         }
         self.silent_since = None;
         let immigrants = self.take_in();
@@ -167,7 +167,7 @@ impl<'a, P: Problem> Voyage<'a, P> {
             Some(island) => island::step(island, &immigrants, problem, archipelago),
         };
         self.island = Some(step.island.clone());
-        Deed::Evolved(Box::new(step))
+        Action::Evolved(Box::new(step))
     }
 
     /// The epoch that it cannot go on without, and the in-neighbours whose outbox of it is missing; none if
@@ -225,8 +225,8 @@ impl<'a, P: Problem> Voyage<'a, P> {
 }
 
 #[cfg(test)]
-impl<P: Problem> Voyage<'_, P> {
-    /// The voyage with another window of its inbox.
+impl<P: Problem> Protocol<'_, P> {
+    /// The protocol with another window of its inbox.
     pub(super) fn with_window(self, window: u32) -> Self {
         let intake = match self.intake {
             Intake::Inbox(inbox) => Intake::Inbox(inbox.with_window(window)),

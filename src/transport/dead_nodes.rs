@@ -45,7 +45,7 @@ const UNFINISHED: u32 = 0o600;
 ///
 /// # Errors
 /// If something is still held after several rounds.
-pub fn bury_dead(domain: &Domain, node: &Node) -> Result<u64, TransportError> {
+pub fn clean_up(domain: &Domain, node: &Node) -> Result<u64, TransportError> {
     let memory = SharedMemory::own();
     let [mut buried, mut failed] = [BTreeSet::new(), BTreeSet::new()];
     for _ in 0..ROUNDS {

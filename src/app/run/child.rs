@@ -35,18 +35,18 @@ pub enum Word {
     /// A line about what went wrong.
     Complained(String),
     /// It has died, or will in a moment: wait for it.
-    Fell,
+    Died,
 }
 
 /// A child process, seen from its parent. Dropped, it is killed and waited for.
-pub struct Kin {
+pub struct ChildProcess {
     role: Role,
     child: Child,
     stdin: Option<ChildStdin>,
     readers: Vec<JoinHandle<()>>,
 }
 
-impl Kin {
+impl ChildProcess {
     /// Starts this executable with other arguments. What it says is sent to `words`, and that it has died.
     ///
     /// Call it from the main thread: a child dies with the thread that started it.
@@ -72,7 +72,7 @@ impl Kin {
         let complaints =
             child.stderr.take().map(|stream| forward(stream, Word::Complained, None, to()));
         let sayings =
-            child.stdout.take().map(|stream| forward(stream, Word::Said, Some(Word::Fell), to()));
+            child.stdout.take().map(|stream| forward(stream, Word::Said, Some(Word::Died), to()));
         let stdin = child.stdin.take();
         Ok(Self { role, child, stdin, readers: complaints.into_iter().chain(sayings).collect() })
     }
@@ -91,7 +91,7 @@ impl Kin {
     ///
     /// # Errors
     /// If it cannot be waited for.
-    pub fn bury(mut self) -> Result<ExitStatus, Failure> {
+    pub fn wait_for_end(mut self) -> Result<ExitStatus, Failure> {
         let role = self.role;
         let status = self.child.wait();
         for reader in self.readers.drain(..) {
@@ -110,7 +110,7 @@ fn executable() -> std::io::Result<PathBuf> {
     Ok(if named.exists() { named } else { PathBuf::from(RUNNING) })
 }
 
-impl Drop for Kin {
+impl Drop for ChildProcess {
     fn drop(&mut self) {
         // Both fail only if it has ended by itself meanwhile.
         let _ = self.child.kill();

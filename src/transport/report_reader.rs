@@ -10,14 +10,14 @@ use crate::evolution::Gene;
 
 /// A reader of all islands' reports. It may be slow or die: no island notices.
 #[derive(Debug)]
-pub struct Lookout<G: Gene> {
+pub struct ReportReader<G: Gene> {
     limits: Limits,
     reports: Inlet<G, ReportHeader>,
     // Last, since the port above is its own.
     _node: Node,
 }
 
-impl<G: Gene> Lookout<G> {
+impl<G: Gene> ReportReader<G> {
     /// Opens the reports of a run whose launcher is running. One that opens late still gets the last few of
     /// every island.
     ///
