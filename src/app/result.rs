@@ -76,6 +76,9 @@ pub struct Summary {
     /// The film, if there is one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<PathBuf>,
+    /// Whether a film is to come yet. Who kills a run over its film can have it made by going on.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub awaits_film: bool,
     /// The program's version.
     pub version: String,
 }
@@ -100,11 +103,16 @@ pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Optio
 }
 
 /// Gathers the result of a run whose islands have all finished: merges their metrics, hashes their final
-/// populations, and writes the champion and the summary.
+/// populations, and writes the champion and the summary, before there is a film if one is to come.
 ///
 /// # Errors
 /// If an island's files are missing or damaged, or ours cannot be written.
-pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<Summary, Failure> {
+pub fn gather<P: Subject>(
+    dir: &RunDir,
+    config: &Config,
+    problem: &P,
+    awaits_film: bool,
+) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
     let reports = write_metrics(dir, config)?;
     let champions = champions(dir, config)?;
@@ -113,8 +121,27 @@ pub fn gather<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Result<
     write_champion(dir, problem, &best.1.individual)?;
     map_output::write(dir, config, problem, &islands)?;
     let summary = summarise(dir, config, problem, &islands, best, &reports);
-    dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, &summary)?))?;
+    let summary = Summary { awaits_film, ..summary };
+    write(dir, &summary)?;
     Ok(summary)
+}
+
+/// The result of a run whose film may have come to be since it was gathered.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn with_film(dir: &RunDir, summary: Summary) -> Result<Summary, Failure> {
+    let recording = Some(dir.recording()).filter(|path| path.exists());
+    if recording == summary.recording && !summary.awaits_film {
+        return Ok(summary);
+    }
+    let summary = Summary { recording, awaits_film: false, ..summary };
+    write(dir, &summary)?;
+    Ok(summary)
+}
+
+fn write(dir: &RunDir, summary: &Summary) -> Result<(), StoreError> {
+    dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, summary)?))
 }
 
 /// What the final states of all islands and their reports come to, in the order of their index.
@@ -156,6 +183,7 @@ pub fn summarise<P: Subject>(
         wall_seconds,
         run_dir: dir.path().to_owned(),
         recording: Some(dir.recording()).filter(|path| path.exists()),
+        awaits_film: false,
         version: env!("CARGO_PKG_VERSION").to_owned(),
     }
 }

@@ -106,10 +106,11 @@ impl Visitor for GoOn<'_> {
     fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
         let Self { args, mut config, dir, claim, stop_signal } = self;
         resume::require_checkpoints::<P::Gene>(&dir, &config)?;
-        if let Some(summary) = result::finished(&dir, &config, &problem) {
+        let finished = result::finished(&dir, &config, &problem);
+        if let Some(summary) = finished.filter(|it| !(it.awaits_film && films(&args.output))) {
             // Its launcher may have been killed over its last words.
             Domain::remove_abandoned();
-            present(&summary, &config, &args.output);
+            present(&result::with_film(&dir, summary)?, &config, &args.output);
             return Ok(());
         }
         let problem = seeds::founded(&dir, &config, problem)?.problem;
@@ -152,18 +153,32 @@ impl<P: Subject> Launch<P> {
             stop_signal,
             output,
         )
-        .and_then(Supervisor::see_to_the_end);
-        if supervised.is_err() {
+        .map(|mut supervisor| {
+            let evolved = supervisor.see_to_the_end();
+            let summary =
+                evolved.and_then(|()| result::gather(&dir, &config, &problem, films(output)));
+            if let (Ok(summary), false) = (&summary, output.json) {
+                show(summary);
+            }
+            supervisor.let_film_end(summary.is_ok());
+            summary.and_then(|summary| result::with_film(&dir, summary))
+        });
+        let summary = supervised.and_then(|summary| summary);
+        if summary.is_err() {
             // What there is so far can be plotted; if not, there is a worse failure to tell of.
             let _ = result::write_metrics(&dir, &config);
         }
-        let summary = supervised.and_then(|()| result::gather(&dir, &config, &problem));
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
         let closed = service_host.close();
         drop(claim);
-        present(&summary?, &config, output);
+        present_film(&summary?, &config, output);
         Ok(closed?)
     }
+}
+
+/// Whether a monitor films the run.
+fn films(output: &OutputArgs) -> bool {
+    cfg!(feature = "view") && !output.no_monitor
 }
 
 fn write_config(dir: &RunDir, config: &Config) -> Result<(), Failure> {
@@ -237,11 +252,19 @@ fn entropy() -> Result<u64, Failure> {
 }
 
 fn present(summary: &Summary, config: &Config, output: &OutputArgs) {
+    if !output.json {
+        show(summary);
+    }
+    present_film(summary, config, output);
+}
+
+/// What there is to say when the film is there, too.
+fn present_film(summary: &Summary, config: &Config, output: &OutputArgs) {
     if output.json {
         let json = serde_json::to_string(summary);
         print(&json.expect("a summary is plain data, its numbers finite"));
     } else {
-        show(summary, config);
+        show_film(summary, config);
     }
 }
 
@@ -257,7 +280,7 @@ fn luck(summary: &Summary) -> Option<String> {
     ))
 }
 
-fn show(summary: &Summary, config: &Config) {
+fn show(summary: &Summary) {
     print(&format!("best     {}, island {}", summary.best, summary.best_island));
     summary
         .validation
@@ -276,6 +299,9 @@ fn show(summary: &Summary, config: &Config) {
         summary.digest,
         summary.run_dir.display(),
     ));
+}
+
+fn show_film(summary: &Summary, config: &Config) {
     match config.problem {
         Kind::Creatures => {
             let command = film::command(&RunDir::at(&summary.run_dir), config);

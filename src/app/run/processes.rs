@@ -32,6 +32,10 @@ pub struct ProcessState {
     /// Whether it has died, or will in a moment, and was not waited for.
     is_dead: bool,
     restart_policy: RestartPolicy,
+    /// Since it was started.
+    born: Option<Stopwatch>,
+    /// When its successor is to be started: so long after this.
+    due: Option<(Stopwatch, Duration)>,
     /// Since the one before it was found dead, until it is ready to do its work.
     vacant: Option<Stopwatch>,
     /// The last thing that it complained of, but for warnings.
@@ -57,6 +61,8 @@ impl Processes {
         let child = ChildProcess::start(role, &self.arguments(role), &self.sender)?;
         let state = self.states.entry(role).or_default();
         state.child = Some(child);
+        state.born = Some(Stopwatch::start());
+        state.due = None;
         state.is_dead = false;
         state.is_finished = false;
         state.complaint = None;
@@ -79,6 +85,13 @@ impl Processes {
         dead.map(|(role, _)| *role).collect()
     }
 
+    /// Those who are to be started by now.
+    pub fn due(&self) -> Vec<Role> {
+        let is_due =
+            |state: &ProcessState| state.due.is_some_and(|(since, pause)| since.elapsed() >= pause);
+        self.states.iter().filter(|(_, state)| is_due(state)).map(|(role, _)| *role).collect()
+    }
+
     /// Whether every island has evolved all its generations.
     pub fn is_finished(&self) -> bool {
         self.islands().all(|state| state.is_finished)
@@ -89,9 +102,9 @@ impl Processes {
         self.islands().map(|state| state.generation).min().flatten()
     }
 
-    /// Whether there is a process for a role.
+    /// Whether there is a process for a role, or will be.
     pub fn has(&self, role: Role) -> bool {
-        self.states.get(&role).is_some_and(|state| state.child.is_some())
+        self.states.get(&role).is_some_and(|state| state.child.is_some() || state.due.is_some())
     }
 
     /// Waits for the end of one that has fallen, and until all that it said can be heard. Nothing if it was
@@ -198,6 +211,25 @@ impl ProcessState {
     /// Takes note of its death, and returns whether there is hope for a successor.
     pub fn allows_restart(&mut self, status: ExitStatus) -> bool {
         self.restart_policy.allows_restart(status, self.generation)
+    }
+
+    /// Has its successor started after a pause, if there has to be one: it was started too often of late. Returns whether
+    /// there has to be one, and whether it is the first one of a series.
+    pub fn is_delayed(&mut self) -> (bool, bool) {
+        let lived = self.born.map_or(Duration::ZERO, Stopwatch::elapsed);
+        let pause = self.restart_policy.pause(lived, self.generation);
+        self.due = (!pause.is_zero()).then(|| (Stopwatch::start(), pause));
+        (self.due.is_some(), self.restart_policy.has_begun_to_pause())
+    }
+
+    /// Whether its successor is to be started after a pause.
+    pub fn is_awaited(&self) -> bool {
+        self.due.is_some()
+    }
+
+    /// Nobody is to be started any more.
+    pub fn give_up(&mut self) {
+        self.due = None;
     }
 
     /// It can do its work. Returns how long nobody did, in seconds, if it is a successor.

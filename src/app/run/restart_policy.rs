@@ -2,13 +2,27 @@
 
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
+use std::time::Duration;
 
 /// So often a process may end by itself without having got any further in between.
 pub const FAILURES_MAX: u32 = 5;
 
+/// So many early deaths, one after the other, delay no successor.
+const AT_ONCE: u32 = 8;
+/// Who has lived for so long has not died early, as who has got further has not.
+const EARLY: Duration = Duration::from_secs(10);
+/// The first delay is so long, and each next one twice as long…
+const PAUSE_MIN: Duration = Duration::from_millis(50);
+/// … up to this.
+pub const PAUSE_MAX: Duration = Duration::from_secs(5);
+
 /// The deaths of one process, and of those that came after it in its role.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct RestartPolicy {
+    /// Early deaths, one after the other, whoever is to blame.
+    early: u32,
+    /// The generation that the last one had evolved.
+    reached: Option<u32>,
     /// Deaths by its own fault, one after the other, after the same generation.
     fruitless: u32,
     /// That generation.
@@ -28,6 +42,23 @@ impl RestartPolicy {
         self.fruitless = if after == self.after { self.fruitless + 1 } else { 1 };
         self.after = after;
         self.fruitless < FAILURES_MAX
+    }
+
+    /// How long its successor has to wait, given how long it lived and the generation that it got to. Whatever kills
+    /// processes as soon as they are there, such as a lack of memory, shall not be answered by hundreds more.
+    pub fn pause(&mut self, lived: Duration, after: Option<u32>) -> Duration {
+        let is_early = lived < EARLY && after <= self.reached;
+        self.early = if is_early { self.early + 1 } else { 0 };
+        self.reached = self.reached.max(after);
+        match self.early.checked_sub(AT_ONCE + 1) {
+            Some(more) => PAUSE_MIN.saturating_mul(1 << more.min(16)).min(PAUSE_MAX),
+            None => Duration::ZERO,
+        }
+    }
+
+    /// Whether its successor is the first that has to wait.
+    pub fn has_begun_to_pause(&self) -> bool {
+        self.early == AT_ONCE + 1
     }
 }
 
@@ -57,6 +88,24 @@ mod tests {
             assert!(policy.allows_restart(status, Some(7)), "{status}");
         }
         assert!(!policy.allows_restart(signal(SIGABRT), Some(7)));
+    }
+
+    #[test]
+    fn who_dies_early_again_and_again_waits_for_longer_and_longer() {
+        let mut policy = RestartPolicy::default();
+        let soon = Duration::from_millis(30);
+        let mut pauses: Vec<u128> = (0..20).map(|_| policy.pause(soon, None).as_millis()).collect();
+        assert_eq!(pauses[..12], [0, 0, 0, 0, 0, 0, 0, 0, 50, 100, 200, 400]);
+        assert_eq!(pauses.split_off(15), [5_000; 5]);
+        assert_eq!(policy.pause(EARLY, None), Duration::ZERO, "it has lived for long");
+        for _ in 0..AT_ONCE {
+            assert_eq!(policy.pause(soon, None), Duration::ZERO);
+            assert!(!policy.has_begun_to_pause());
+        }
+        assert_eq!(policy.pause(soon, None), PAUSE_MIN);
+        assert!(policy.has_begun_to_pause());
+        assert_eq!(policy.pause(soon, Some(0)), Duration::ZERO, "it has got further");
+        assert_eq!(policy.pause(soon, Some(0)), Duration::ZERO);
     }
 
     #[test]

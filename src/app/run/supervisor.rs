@@ -9,7 +9,7 @@ use super::super::result::BestOnDisk;
 use super::super::subject::Subject;
 use super::child::{Role, Word};
 use super::processes::Processes;
-use super::restart_policy::FAILURES_MAX;
+use super::restart_policy::{FAILURES_MAX, PAUSE_MAX};
 use super::resume::{self, require_folder};
 use super::run_log::RunLog;
 use crate::store::RunDir;
@@ -71,24 +71,34 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         for island in 0..config.islands {
             supervisor.processes.start(Role::Island(island))?;
         }
-        if cfg!(feature = "view") && !output.no_monitor {
+        if super::films(output) {
             supervisor.processes.start(Role::Monitor)?;
         }
         Ok(supervisor)
     }
 
-    /// Watches over the run until every island has evolved all its generations, and stops everybody.
+    /// Watches over the run until every island has evolved all its generations, and stops the islands. The result
+    /// is there then, whatever becomes of the film.
     ///
     /// # Errors
     /// If the user interrupts it, or an island cannot go on; nothing is lost then.
-    pub fn see_to_the_end(mut self) -> Result<(), Failure> {
+    pub fn see_to_the_end(&mut self) -> Result<(), Failure> {
         let watched = self.watch_over();
         self.run_log.finish();
         if let Err(failure) = &watched {
             self.run_log.note(&failure.message);
         }
-        self.stop(watched.is_ok());
+        self.stop_islands();
         watched
+    }
+
+    /// Lets the monitor film what is left, for a while: for longer if the run is finished.
+    pub fn let_film_end(mut self, is_finished: bool) {
+        let stop_signal = self.stop_signal.clone();
+        let (most, watch) = (if is_finished { LAST_REEL } else { LAST_WORDS }, Stopwatch::start());
+        while self.processes.has(Role::Monitor) && !stop_signal.is_urgent() {
+            self.let_monitor_end(most.saturating_sub(watch.elapsed()));
+        }
     }
 
     fn watch_over(&mut self) -> Result<(), Failure> {
@@ -113,7 +123,8 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         require_folder(self.dir)?;
         self.take_reports()?;
         // Who falls meanwhile is seen to the next time: so an interruption is heard however often they die.
-        self.processes.dead().into_iter().try_for_each(|role| self.replace(role))
+        self.processes.dead().into_iter().try_for_each(|role| self.replace(role))?;
+        self.processes.due().into_iter().try_for_each(|role| self.processes.start(role))
     }
 
     /// Hears everybody out.
@@ -205,14 +216,25 @@ impl<'a, P: Subject> Supervisor<'a, P> {
     }
 
     fn start_again(&mut self, role: Role, status: ExitStatus) -> Result<(), Failure> {
-        self.run_log.warn(&format!("{role} died ({status}); it is started again"));
+        let (is_delayed, is_first) = self.processes.state(role).is_delayed();
+        match (is_delayed, is_first) {
+            (false, _) => {
+                self.run_log.warn(&format!("{role} died ({status}); it is started again"));
+            }
+            (true, true) => self.run_log.warn(&format!(
+                "{role} dies again and again ({status}): from now on it is started again after longer and longer \
+                 pauses, up to {} s",
+                PAUSE_MAX.as_secs()
+            )),
+            (true, false) => {}
+        }
         if role != Role::Monitor
             && let Err(error) = self.service_host.cleanup_dead_nodes()
         {
             // Its successor may find a place all the same; if not, it says so itself.
             self.run_log.warn(&error.to_string());
         }
-        self.processes.start(role)
+        if is_delayed { Ok(()) } else { self.processes.start(role) }
     }
 
     fn despair(&mut self, role: Role, status: ExitStatus) -> Failure {
@@ -230,21 +252,21 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         ))
     }
 
-    /// Asks everybody to stop, and waits for them.
-    fn stop(&mut self, is_finished: bool) {
+    /// Asks the islands to stop, and waits for them.
+    fn stop_islands(&mut self) {
         let stop_signal = self.stop_signal.clone();
         let is_island = |role| role != Role::Monitor;
         self.processes.ask_to_stop(is_island);
         self.processes.await_end(is_island, LAST_WORDS, || stop_signal.is_urgent());
         self.processes.kill(is_island);
-        while self.processes.has(Role::Monitor) && !stop_signal.is_urgent() {
-            self.let_monitor_end(if is_finished { LAST_REEL } else { LAST_WORDS });
-        }
     }
 
     /// The monitor films what is left; if it dies over it, another one does.
     fn let_monitor_end(&mut self, most: Duration) {
         let stop_signal = self.stop_signal.clone();
+        if self.processes.state(Role::Monitor).is_awaited() {
+            return self.await_next_monitor(most);
+        }
         let is_monitor = |role| role == Role::Monitor;
         self.processes.ask_to_stop(is_monitor);
         let is_quick = self.processes.await_end(is_monitor, SOON, || stop_signal.is_urgent());
@@ -267,6 +289,21 @@ impl<'a, P: Subject> Supervisor<'a, P> {
             }
         } else if fails {
             self.run_log.warn(&format!("the monitor failed ({status}); the film has gaps"));
+        }
+    }
+
+    /// Starts a monitor that was to be started after a pause, when that is over.
+    fn await_next_monitor(&mut self, most: Duration) {
+        if most.is_zero() {
+            self.run_log.warn("the monitor died again and again; the film has gaps");
+            return self.processes.state(Role::Monitor).give_up();
+        }
+        std::thread::sleep(LOOK);
+        if self.processes.due().contains(&Role::Monitor)
+            && let Err(failure) = self.processes.start(Role::Monitor)
+        {
+            self.run_log.warn(&failure.message);
+            self.processes.state(Role::Monitor).give_up();
         }
     }
 }
