@@ -310,7 +310,7 @@ fn an_island_that_is_killed_again_and_again_from_outside_is_never_given_up() {
     let world = World::new();
     let (run, other) = start_without_progress(&world);
     let own_fault = ["ABRT"; FAILURES_MAX - 1];
-    let from_outside = ["KILL", "TERM"].repeat(FAILURES_MAX + 1);
+    let from_outside = ["KILL", "TERM"].repeat(FAILURES_MAX.div_ceil(2));
     kill_again_and_again(&run, own_fault.into_iter().chain(from_outside));
     signal(other, "CONT");
     let dir = RunDir::at(world.path("run"));

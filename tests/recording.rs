@@ -1,7 +1,7 @@
 //! What a viewer gets to see is what was scored.
 
 use crate::reel::Recording;
-use crate::support::{Ending, TINY, World, await_generation, signal, until};
+use crate::support::{Ending, TINY, World, await_generation, signal, try_signal, until};
 use islands::archipelago::Champion;
 use islands::creature::Gene;
 use islands::evolution::Fitness;
@@ -96,6 +96,63 @@ fn a_monitor_that_is_killed_again_and_again_leaves_a_film_without_gaps_or_double
     assert_eq!(ending.code, Some(0), "{ending:?}");
     assert_eq!(Recording::read(&dir.recording()).generations(2), Vec::from_iter(0..=40));
     assert!(!dir.partial().exists());
+}
+
+/// As where there is no memory for it. What is there of the film when nobody kills it any more is all of it.
+#[test]
+fn a_monitor_that_is_killed_whenever_it_appears_costs_no_result_and_is_started_less_and_less_often()
+{
+    let world = World::new();
+    let settings = "--n 1 --seed 43 --population 4 --robustness 0 --generations 40 --genes 1";
+    let expected = world.digest("undisturbed", settings);
+    let run = world.start(&format!("--out run --quiet --json {settings}"));
+    let dir = RunDir::at(world.path("run"));
+    until("there is a result", || {
+        if let Some(monitor) = run.find_child("monitor") {
+            try_signal(monitor, "KILL");
+        }
+        dir.summary().exists()
+    });
+    let said = world.read("run/summary.json");
+    assert!(said.contains(&format!("\"digest\": \"{expected}\"")), "{said}");
+    assert!(said.contains("awaits_film"), "{said}");
+    let mut dead = None;
+    until("it was killed often", || {
+        let another = run.find_child("monitor").filter(|&monitor| Some(monitor) != dead);
+        if let Some(monitor) = another {
+            try_signal(monitor, "KILL");
+            dead = another;
+        }
+        world.read("run/run.log").contains("dies again and again")
+    });
+    let ending = run.wait();
+    assert_eq!(ending.json()["digest"], *expected, "{ending:?}");
+    assert_eq!(ending.json()["recording"], "run/recording.rrd", "{ending:?}");
+    assert!(!world.read("run/summary.json").contains("awaits_film"));
+    let log = world.read("run/run.log");
+    assert_eq!(log.matches("the monitor died").count(), 8, "{log}");
+    assert_eq!(log.matches("dies again and again").count(), 1, "{log}");
+    assert_eq!(Recording::read(&dir.recording()).generations(1), Vec::from_iter(0..=40));
+    world.assert_left_nothing();
+}
+
+#[test]
+fn going_on_makes_the_film_of_a_run_that_was_killed_over_it() {
+    let world = World::new();
+    let settings = "--n 1 --seed 43 --population 4 --robustness 0 --generations 9 --genes 1";
+    let run = world.start(&format!("--out run --quiet --json {settings}"));
+    let dir = RunDir::at(world.path("run"));
+    signal(run.child("monitor"), "STOP");
+    until("there is a result", || dir.summary().exists());
+    run.signal("KILL");
+    let ending = run.wait();
+    assert!(!dir.recording().exists() && ending.code.is_none(), "{ending:?}");
+    let without = world.json("resume run --no-monitor --json");
+    assert!(without.get("recording").is_none(), "{without}");
+    let with = world.json("resume run --json");
+    assert_eq!(with["digest"], without["digest"]);
+    assert_eq!(Recording::read(&dir.recording()).generations(1), Vec::from_iter(0..=9));
+    world.assert_left_nothing();
 }
 
 #[test]

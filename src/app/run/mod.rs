@@ -110,7 +110,7 @@ impl Visitor for GoOn<'_> {
         if let Some(summary) = finished.filter(|it| !(it.awaits_film && films(&args.output))) {
             // Its launcher may have been killed over its last words.
             Domain::remove_abandoned();
-            present(&result::with_film(&dir, summary)?, &config, &args.output);
+            present(&summary, &config, &args.output);
             return Ok(());
         }
         let problem = seeds::founded(&dir, &config, problem)?.problem;
