@@ -6,7 +6,7 @@
 
 #![expect(clippy::print_stdout, reason = "the table is what it is for")]
 
-#[path = "../tests/onlooker.rs"]
+#[path = "../tests/support/onlooker.rs"]
 mod onlooker;
 mod program;
 

@@ -2,7 +2,7 @@
 
 use super::pieces::{self, RUN_ID, SETTINGS, Sum, archipelago, part, place};
 use super::wire;
-use crate::course::fixture;
+use crate::formats::course::fixture;
 use islands::app::config::Config;
 use islands::archipelago::{Step, lockstep};
 use islands::creature::{Creature, Gene, Profile, express};

@@ -1,7 +1,7 @@
 //! Whatever searches, the promises hold: real processes equal one process, a killed run goes on to the same result,
 //! and what it claims can be verified.
 
-use crate::determinism::{in_lockstep, in_processes};
+use crate::promises::determinism::{in_lockstep, in_processes};
 use crate::support::{World, await_generation};
 use islands::app::config::Config;
 use islands::store::RunDir;

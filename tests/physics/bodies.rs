@@ -1,6 +1,6 @@
 //! Bodies travel: as URDF and back without a bit lost, and to other programs in the formats that they read.
 
-use crate::course::{FIXTURES, fixture};
+use crate::formats::course::{FIXTURES, fixture};
 use crate::support::World;
 use expect_test::expect;
 use islands::creature::profile::COURSEWORK_LINKS_MAX;

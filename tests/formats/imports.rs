@@ -1,6 +1,6 @@
 //! Genomes of the course come in: whatever state their files are in, and as those that a run begins with.
 
-use crate::course::fixture;
+use crate::formats::course::fixture;
 use crate::support::{TINY, World};
 use expect_test::expect;
 use islands::app::config::Config;

@@ -1,7 +1,7 @@
 //! What is exported as URDF is valid for others: urdf-rs, a reader with its own rules, finds the same body in it.
 
-use crate::bodies::{creature, locomotion, written};
-use crate::course::{FIXTURES, fixture};
+use crate::formats::course::{FIXTURES, fixture};
+use crate::physics::bodies::{creature, locomotion, written};
 use islands::creature::{Creature, Joint, JointKind, Link, Motor, Profile, Shape};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;

@@ -1,6 +1,6 @@
 //! A replay shows what was scored.
 
-use crate::reel::Recording;
+use crate::support::reel::Recording;
 use crate::support::{TINY, World};
 use islands::app::config::Config;
 use islands::archipelago::Champion;
@@ -35,7 +35,7 @@ fn several_creatures_race_in_one_replay() {
     let world = World::new();
     let course = |i| format!("genome_{i}.csv");
     for i in [1, 2] {
-        world.write(&course(i), crate::course::fixture(&course(i)));
+        world.write(&course(i), crate::formats::course::fixture(&course(i)));
     }
     let problem =
         Locomotion { profile: Profile::Coursework, task: Task::Course, ..Locomotion::DEFAULT };
@@ -114,7 +114,7 @@ fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
 #[test]
 fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
     let world = World::new();
-    let founder = |i| crate::course::fixture(&format!("genome_{i}.csv"));
+    let founder = |i| crate::formats::course::fixture(&format!("genome_{i}.csv"));
     (0..5).for_each(|i| world.write(&format!("{i}.csv"), founder(i)));
     let settings =
         "--population 4 --robustness 0 --generations 5 --elites 0 --max-genes 20 --max-links 8";
@@ -141,7 +141,7 @@ fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
 #[test]
 fn genomes_in_any_state_and_bodies_race() {
     let world = World::new();
-    let genome = crate::course::fixture("genome_3.csv");
+    let genome = crate::formats::course::fixture("genome_3.csv");
     world.write("own.csv", &genome);
     let wide = genome.lines().map(|line| format!("0.9,{line}\n"));
     world.write("wide.csv", wide.collect::<String>());

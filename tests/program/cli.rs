@@ -1,6 +1,6 @@
 //! What the command line takes, what it refuses, and how it says so.
 
-use crate::course::{FIXTURES, fixture};
+use crate::formats::course::{FIXTURES, fixture};
 use crate::support::{World, assert_same};
 use expect_test::{Expect, expect};
 use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};

@@ -1,11 +1,11 @@
 //! README is short, and what it says to type works; its links and those of the guide lead somewhere.
 
-use crate::course::fixture;
+use crate::formats::course::fixture;
 use crate::support::World;
 use std::fs;
 use std::path::Path;
 
-const README: &str = include_str!("../README.md");
+const README: &str = include_str!("../../README.md");
 const LINES_MAX: usize = 150;
 const GUIDE: &str = "src/guide";
 

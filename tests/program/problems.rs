@@ -1,6 +1,6 @@
 //! Numbers and bits on the same islands as creatures.
 
-use crate::determinism::{in_lockstep, in_processes};
+use crate::promises::determinism::{in_lockstep, in_processes};
 use crate::support::{World, await_generation, run_id};
 use expect_test::expect;
 use islands::app::config::Config;

@@ -1,5 +1,11 @@
 //! Starting the program in a world of its own, and looking at what it leaves behind.
 
+pub mod forger;
+#[cfg(feature = "view")]
+pub mod onlooker;
+#[cfg(feature = "view")]
+pub mod reel;
+
 use islands::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::collections::BTreeSet;

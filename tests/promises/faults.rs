@@ -1,7 +1,7 @@
 //! What goes wrong around a run has a clear end: a sentence that says what to do, nothing left behind, and the
 //! result of the undisturbed run once the fault is gone.
 
-use crate::forger::Forger;
+use crate::support::forger::Forger;
 use crate::support::{Ending, Running, World, await_generation, run_id, signal, until};
 use islands::app::config::{Config, Launch};
 use islands::archipelago::{Digest, Outbox, lockstep};

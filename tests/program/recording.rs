@@ -1,6 +1,6 @@
 //! What a viewer gets to see is what was scored.
 
-use crate::reel::Recording;
+use crate::support::reel::Recording;
 use crate::support::{Ending, TINY, World, await_generation, signal, try_signal, until};
 use islands::archipelago::Champion;
 use islands::creature::Gene;

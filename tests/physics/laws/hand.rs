@@ -127,7 +127,7 @@ impl Body {
 }
 
 fn body(name: &str) -> Body {
-    let manifest = include_str!("../fixtures/physics/hand/manifest.json");
+    let manifest = include_str!("../../fixtures/physics/hand/manifest.json");
     let bodies: Vec<Body> = serde_json::from_str(manifest).unwrap();
     bodies.into_iter().find(|body| body.name == name).unwrap()
 }

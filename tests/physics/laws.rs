@@ -200,7 +200,7 @@ fn assert_sound(evaluation: &Evaluation) {
 #[test]
 fn bodies_that_once_blew_up_pass_for_no_athletes() {
     let genomes: BTreeMap<String, Vec<Gene>> =
-        serde_json::from_str(include_str!("fixtures/physics/bad_genomes.json")).unwrap();
+        serde_json::from_str(include_str!("../fixtures/physics/bad_genomes.json")).unwrap();
     assert_eq!(genomes.len(), 5);
     for (name, genome) in &genomes {
         for problem in problems() {

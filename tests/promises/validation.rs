@@ -76,7 +76,7 @@ fn evaluate_says_the_same_of_a_champion_as_its_run() {
 #[test]
 fn a_run_that_begins_with_genomes_is_validated_too() {
     let world = World::new();
-    world.write("one.csv", crate::course::fixture("genome_0.csv"));
+    world.write("one.csv", crate::formats::course::fixture("genome_0.csv"));
     let settings = "--n 1 --seed 3 --robustness 2 --seed-genomes one.csv --no-monitor";
     let result = world.json(&format!("--out run --json {settings} {TINY}"));
     assert!(result["validated"].is_number(), "{result}");

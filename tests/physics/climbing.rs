@@ -1,6 +1,6 @@
 //! Creatures on terrains: they climb, what is no climbing gains nothing, and a run keeps what it stood on.
 
-use crate::course::fixture;
+use crate::formats::course::fixture;
 use crate::support::{TINY, World};
 use islands::app::config::Config;
 use islands::archipelago::lockstep;

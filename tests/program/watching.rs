@@ -1,7 +1,7 @@
 //! Whoever watches a run, and however badly, it is the same run.
 
-use crate::onlooker::{Onlooker, port_of};
-use crate::reel::Recording;
+use crate::support::onlooker::{Onlooker, port_of};
+use crate::support::reel::Recording;
 use crate::support::{Running, World, until};
 use islands::store::RunDir;
 use std::thread::sleep;
@@ -31,8 +31,10 @@ fn a_viewer_that_hangs_is_waited_for_by_nobody() {
 #[test]
 fn viewers_that_come_and_go_without_a_word_leave_no_trace() {
     watched(|run, port| {
+        let mut visits = 0;
         for visit in 0..300 {
             let Ok(mut viewer) = Onlooker::attach(port) else { break };
+            visits += 1;
             // Some leave at once, some amid the film. What was not read makes the end an abrupt one.
             for _ in 0..visit % 4 {
                 // A run that is over resets what it does not end.
@@ -44,6 +46,7 @@ fn viewers_that_come_and_go_without_a_word_leave_no_trace() {
                 break;
             }
         }
+        assert!(visits >= 10, "{visits}");
     });
 }
 
