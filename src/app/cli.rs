@@ -275,7 +275,8 @@ pub struct ReplayArgs {
     /// run]
     #[arg(long, value_name = "K")]
     pub robustness: Option<u32>,
-    /// What the scores of these trials come to: mean, median, quartile or worst [default: mean, or as in the run]
+    /// What the scores of these trials come to: mean, median, quartile or worst [default: quartile, or as in the
+    /// run]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
     /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts [default: false, or as in the run]

@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use crate::creature::Gene;
     use crate::evolution::{Id, Problem};
-    use crate::problems::{Locomotion, Validation};
+    use crate::problems::{Locomotion, RobustBy, Robustness, Validation};
     use crate::rng::{Purpose, Source};
     use crate::simulation::Engine;
 
@@ -64,7 +64,7 @@ mod tests {
     #[test]
     fn kept_is_who_is_best_in_both_engines() {
         let mut problem = Locomotion { genes: 3, ..Locomotion::DEFAULT };
-        problem.robustness.trials = 2;
+        problem.robustness = Robustness { trials: 2, by: RobustBy::Mean };
         let mut champions: Vec<_> = (0..8).map(|index| champion(&problem, index)).collect();
         champions[3].fitness = Fitness::new(9.0);
         let holds = |one: &Individual<Gene>| {

@@ -45,7 +45,8 @@ pub struct SettingArgs {
     /// is [default: 8]
     #[arg(long, value_name = "K")]
     pub robustness: Option<u32>,
-    /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst [default: mean]
+    /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst [default:
+    /// quartile]
     #[arg(long, value_name = "HOW")]
     pub robust_by: Option<RobustBy>,
     /// Have the other engine judge who would be champion or emigrates: where it finds less than 0.85 of a score, its own

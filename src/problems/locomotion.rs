@@ -52,7 +52,7 @@ impl Locomotion {
         genes: 4,
         links_max: 16,
         engine: Engine::Featherstone,
-        robustness: Robustness { trials: 8, by: RobustBy::Mean },
+        robustness: Robustness { trials: 8, by: RobustBy::Quartile },
         judged: false,
         terrain: None,
     };

@@ -27,11 +27,11 @@ pub enum RobustBy {
     /// The worst of them.
     Worst,
     /// Their lower quartile: a quarter of them is worse.
+    #[default]
     Quartile,
     /// Their median.
     Median,
     /// Their mean.
-    #[default]
     Mean,
 }
 

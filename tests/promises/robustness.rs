@@ -346,7 +346,7 @@ fn a_run_goes_on_with_the_robustness_that_it_has_and_no_other() {
     assert_eq!(resumed["digest"], run("long", 4)["digest"]);
     for (wish, reason) in [
         ("resume short --robustness 3", "robustness is 2, not 3"),
-        ("resume short --robust-by worst", "robust-by is \"mean\", not \"worst\""),
+        ("resume short --robust-by worst", "robust-by is \"quartile\", not \"worst\""),
         ("resume short --judged", "judged is false, not true"),
         ("--robustness 101", "robustness must be from 0 to 100, not 101"),
         ("evaluate short/champion.csv --robustness 101", "robustness must be from 0 to 100"),
