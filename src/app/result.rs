@@ -97,7 +97,7 @@ pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Optio
         // The folder may have been moved.
         best_genome: dir.champion_genome(),
         run_dir: dir.path().to_owned(),
-        recording: Some(dir.recording()).filter(|path| path.exists()),
+        recording: recording(dir),
         ..summary
     })
 }
@@ -131,13 +131,18 @@ pub fn gather<P: Subject>(
 /// # Errors
 /// If it cannot be written.
 pub fn with_film(dir: &RunDir, summary: Summary) -> Result<Summary, Failure> {
-    let recording = Some(dir.recording()).filter(|path| path.exists());
+    let recording = recording(dir);
     if recording == summary.recording && !summary.awaits_film {
         return Ok(summary);
     }
     let summary = Summary { recording, awaits_film: false, ..summary };
     write(dir, &summary)?;
     Ok(summary)
+}
+
+/// The film, if there is one.
+fn recording(dir: &RunDir) -> Option<PathBuf> {
+    Some(dir.recording()).filter(|path| path.exists())
 }
 
 fn write(dir: &RunDir, summary: &Summary) -> Result<(), StoreError> {
@@ -182,7 +187,7 @@ pub fn summarise<P: Subject>(
         evaluations_per_second: effort.evaluations as f64 / wall_seconds.max(1e-9),
         wall_seconds,
         run_dir: dir.path().to_owned(),
-        recording: Some(dir.recording()).filter(|path| path.exists()),
+        recording: recording(dir),
         awaits_film: false,
         version: env!("CARGO_PKG_VERSION").to_owned(),
     }
@@ -265,7 +270,7 @@ pub struct BestOnDisk {
 }
 
 impl BestOnDisk {
-    /// The best_on_disk of a run that may have had champions already.
+    /// That of a run that may have had champions already.
     ///
     /// # Errors
     /// If they cannot be read.

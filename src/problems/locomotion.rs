@@ -115,7 +115,8 @@ impl Locomotion {
         trials.map(|trial| u64::from(trial.steps())).sum()
     }
 
-    fn score_genome(&self, genome: &[Gene], hurdles: &Hurdles) -> Result<f64, Outcome> {
+    /// The body that is scored for a genome.
+    fn grow(&self, genome: &[Gene]) -> Result<Creature, Outcome> {
         let mut values = genome.iter().flat_map(|gene| gene.0);
         if !values.all(f64::is_finite) {
             return Err(Outcome::NotFinite);
@@ -123,8 +124,7 @@ impl Locomotion {
         if !genome.iter().all(evolution::Gene::is_valid) {
             return Err(Outcome::TooLarge);
         }
-        let creature = self.express(genome).map_err(|_| Outcome::TooLarge)?;
-        self.score(&creature, &self.trial(), hurdles)
+        self.express(genome).map_err(|_| Outcome::TooLarge)
     }
 }
 
@@ -192,7 +192,9 @@ impl Problem for Locomotion {
     }
 
     fn estimate(&self, genome: &[Gene], hurdles: &Hurdles) -> Evaluation {
-        let tried = catch_unwind(AssertUnwindSafe(|| self.score_genome(genome, hurdles)));
+        let tried = catch_unwind(AssertUnwindSafe(|| {
+            self.score(&self.grow(genome)?, &self.trial(), hurdles)
+        }));
         evaluation(tried.unwrap_or(Err(Outcome::Panicked)))
     }
 
@@ -201,7 +203,7 @@ impl Problem for Locomotion {
     }
 
     fn possible_scores(&self, genome: &[Gene]) -> Vec<Fitness> {
-        let possible = || self.express(genome).map(|creature| self.possible(&creature));
+        let possible = || self.grow(genome).map(|creature| self.possible(&creature));
         let tried = catch_unwind(AssertUnwindSafe(possible));
         tried.ok().and_then(Result::ok).unwrap_or_else(|| vec![Fitness::WORST])
     }

@@ -122,6 +122,7 @@ impl Locomotion {
         }
         Ok(judged)
     }
+
     /// The score of a body, and that of its trials whose score is nearest to what all of them come to, or the first that
     /// fails.
     pub(super) fn typical(

@@ -79,7 +79,7 @@ impl Processes {
         self.states.entry(role).or_default()
     }
 
-    /// Those who have died, or will in a moment, and were not buried.
+    /// Those who have died, or will in a moment, and were not waited for.
     pub fn dead(&self) -> Vec<Role> {
         let dead = self.states.iter().filter(|(_, state)| state.is_dead);
         dead.map(|(role, _)| *role).collect()
@@ -107,7 +107,7 @@ impl Processes {
         self.states.get(&role).is_some_and(|state| state.child.is_some() || state.due.is_some())
     }
 
-    /// Waits for the end of one that has fallen, and until all that it said can be heard. Nothing if it was
+    /// Waits for the end of one that has died, and until all that it said can be heard. Nothing if it was
     /// waited for already.
     ///
     /// # Errors
@@ -213,13 +213,13 @@ impl ProcessState {
         self.restart_policy.allows_restart(status, self.generation)
     }
 
-    /// Has its successor started after a pause, if there has to be one: it was started too often of late. Returns whether
-    /// there has to be one, and whether it is the first one of a series.
-    pub fn is_delayed(&mut self) -> (bool, bool) {
+    /// Has its successor started after a pause, if it was started too often of late. Returns the pause; zero if there is
+    /// none, and the successor is to be started at once.
+    pub fn delay(&mut self) -> Duration {
         let lived = self.born.map_or(Duration::ZERO, Stopwatch::elapsed);
         let pause = self.restart_policy.pause(lived, self.generation);
         self.due = (!pause.is_zero()).then(|| (Stopwatch::start(), pause));
-        (self.due.is_some(), self.restart_policy.has_begun_to_pause())
+        pause
     }
 
     /// Whether its successor is to be started after a pause.

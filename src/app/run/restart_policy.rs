@@ -1,4 +1,4 @@
-//! When a process that has died is started again, and when that has no hope.
+//! When a process that has died is started again, and when it is not.
 
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
@@ -12,7 +12,7 @@ const AT_ONCE: u32 = 8;
 /// Who has lived for so long has not died early, as who has got further has not.
 const EARLY: Duration = Duration::from_secs(10);
 /// The first delay is so long, and each next one twice as long…
-const PAUSE_MIN: Duration = Duration::from_millis(50);
+pub const PAUSE_MIN: Duration = Duration::from_millis(50);
 /// … up to this.
 pub const PAUSE_MAX: Duration = Duration::from_secs(5);
 
@@ -55,11 +55,6 @@ impl RestartPolicy {
             None => Duration::ZERO,
         }
     }
-
-    /// Whether its successor is the first that has to wait.
-    pub fn has_begun_to_pause(&self) -> bool {
-        self.early == AT_ONCE + 1
-    }
 }
 
 fn is_from_outside(status: ExitStatus) -> bool {
@@ -100,10 +95,8 @@ mod tests {
         assert_eq!(policy.pause(EARLY, None), Duration::ZERO, "it has lived for long");
         for _ in 0..AT_ONCE {
             assert_eq!(policy.pause(soon, None), Duration::ZERO);
-            assert!(!policy.has_begun_to_pause());
         }
         assert_eq!(policy.pause(soon, None), PAUSE_MIN);
-        assert!(policy.has_begun_to_pause());
         assert_eq!(policy.pause(soon, Some(0)), Duration::ZERO, "it has got further");
         assert_eq!(policy.pause(soon, Some(0)), Duration::ZERO);
     }

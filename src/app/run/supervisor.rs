@@ -9,7 +9,7 @@ use super::super::result::BestOnDisk;
 use super::super::subject::Subject;
 use super::child::{Role, Word};
 use super::processes::Processes;
-use super::restart_policy::{FAILURES_MAX, PAUSE_MAX};
+use super::restart_policy::{FAILURES_MAX, PAUSE_MAX, PAUSE_MIN};
 use super::resume::{self, require_folder};
 use super::run_log::RunLog;
 use crate::store::RunDir;
@@ -122,7 +122,7 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         self.listen(LOOK);
         require_folder(self.dir)?;
         self.take_reports()?;
-        // Who falls meanwhile is seen to the next time: so an interruption is heard however often they die.
+        // Who dies meanwhile is seen to the next time: so an interruption is heard however often they die.
         self.processes.dead().into_iter().try_for_each(|role| self.replace(role))?;
         self.processes.due().into_iter().try_for_each(|role| self.processes.start(role))
     }
@@ -216,17 +216,17 @@ impl<'a, P: Subject> Supervisor<'a, P> {
     }
 
     fn start_again(&mut self, role: Role, status: ExitStatus) -> Result<(), Failure> {
-        let (is_delayed, is_first) = self.processes.state(role).is_delayed();
-        match (is_delayed, is_first) {
-            (false, _) => {
+        let pause = self.processes.state(role).delay();
+        match pause {
+            Duration::ZERO => {
                 self.run_log.warn(&format!("{role} died ({status}); it is started again"));
             }
-            (true, true) => self.run_log.warn(&format!(
+            PAUSE_MIN => self.run_log.warn(&format!(
                 "{role} dies again and again ({status}): from now on it is started again after longer and longer \
                  pauses, up to {} s",
                 PAUSE_MAX.as_secs()
             )),
-            (true, false) => {}
+            _ => {}
         }
         if role != Role::Monitor
             && let Err(error) = self.service_host.cleanup_dead_nodes()
@@ -234,7 +234,7 @@ impl<'a, P: Subject> Supervisor<'a, P> {
             // Its successor may find a place all the same; if not, it says so itself.
             self.run_log.warn(&error.to_string());
         }
-        if is_delayed { Ok(()) } else { self.processes.start(role) }
+        if pause.is_zero() { self.processes.start(role) } else { Ok(()) }
     }
 
     fn despair(&mut self, role: Role, status: ExitStatus) -> Failure {

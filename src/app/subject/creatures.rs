@@ -47,8 +47,9 @@ impl Subject for Locomotion {
     }
 
     fn tried_once_more(&self, genome: &[Gene]) -> Option<Fitness> {
-        let wanted = self.robustness.trials > 0;
-        wanted.then(|| self.express(genome).map_or(Fitness::WORST, |body| self.elsewhere(&body)))
+        self.robustness
+            .is_wanted()
+            .then(|| self.express(genome).map_or(Fitness::WORST, |body| self.elsewhere(&body)))
     }
 
     fn short(&self, fitness: Fitness) -> String {
