@@ -39,13 +39,16 @@ impl Locomotion {
         usual: &Trial,
         hurdles: &Hurdles,
     ) -> Result<f64, Outcome> {
+        let trials: Vec<Trial> = self.trials(*usual).collect();
         let mut scores = Vec::new();
-        for (index, trial) in self.trials(*usual).enumerate() {
+        for index in 0..trials.len() {
             if self.fails(&scores, hurdles) {
                 return Ok(self.robustness.by.of(&scores));
             }
             if index == known.len() {
-                known.push(self.try_out(creature, &trial, self.engine));
+                let next =
+                    &trials[index..][..self.at_a_time(index, hurdles).min(trials.len() - index)];
+                known.extend(self.try_each(creature, next));
             }
             scores.push(known[index]?);
         }
@@ -53,6 +56,16 @@ impl Locomotion {
         match self.judged && Fitness::new(score) > hurdles.best {
             true => self.judge(creature, usual, score, hurdles.best),
             false => Ok(score),
+        }
+    }
+
+    /// So many trials go side by side after some. Most offspring fail at the first look: who may has its first trial
+    /// alone.
+    fn at_a_time(&self, tried: usize, hurdles: &Hurdles) -> usize {
+        let most = simulation::at_a_time(self.engine, self.trial().ground);
+        match tried {
+            0 if hurdles.looks[0] > Fitness::WORST => 1,
+            _ => most - tried % most,
         }
     }
 
@@ -160,6 +173,12 @@ impl Locomotion {
         Ok(self.task.score(&measured))
     }
 
+    /// What a body gets in each of some trials, which go side by side.
+    fn try_each(&self, creature: &Creature, trials: &[Trial]) -> Vec<Result<f64, Outcome>> {
+        let measured = simulation::simulate_each(creature, trials, self.engine).into_iter();
+        measured.map(|measured| Ok(self.task.score(&measured?))).collect()
+    }
+
     pub(super) fn trials(&self, usual: Trial) -> impl Iterator<Item = Trial> {
         self.robustness.trials(usual).map(|trial| self.unpushed(trial))
     }
@@ -193,10 +212,16 @@ impl Locomotion {
         trials: u32,
     ) -> Vec<Result<f64, Outcome>> {
         let usual = self.trial();
-        sharing::dearest_first(&vec![1; trials as usize], |index| {
-            let trial = self.unpushed(usual.perturbed(first + index as u32));
-            let score = || self.try_out(creature, &trial, engine);
-            catch_unwind(AssertUnwindSafe(score)).unwrap_or(Err(Outcome::Panicked))
-        })
+        let trial = |index| self.unpushed(usual.perturbed(first + index));
+        let trials: Vec<Trial> = (0..trials).map(trial).collect();
+        let problem = Self { engine, ..*self };
+        let groups: Vec<&[Trial]> =
+            trials.chunks(simulation::at_a_time(engine, usual.ground)).collect();
+        let tried = sharing::dearest_first(&vec![1; groups.len()], |group| {
+            let scores = || problem.try_each(creature, groups[group]);
+            catch_unwind(AssertUnwindSafe(scores))
+                .unwrap_or_else(|_| vec![Err(Outcome::Panicked); groups[group].len()])
+        });
+        tried.into_iter().flatten().collect()
     }
 }

@@ -64,7 +64,7 @@ impl Guard {
     /// The first thing that is wrong.
     pub fn check(&self, world: &impl World, parts: usize) -> Result<(), Outcome> {
         for part in 0..parts {
-            let position_m = world.world_from_part(part).translation.vector;
+            let position_m = world.position_m(part);
             let speed_m_s = world.velocity_m_s(part).norm();
             if !(position_m.sum().is_finite() && speed_m_s.is_finite()) {
                 return Err(Outcome::NotFinite);

@@ -5,14 +5,17 @@ use super::trajectory::Pose;
 use crate::evolution::Outcome;
 use nalgebra::{Isometry3, Point3, Vector3};
 
-/// A body on the ground, under one of the engines. Parts are those of its [`Assembly`], by their index.
-pub trait World {
+/// A world that goes on by itself.
+pub trait Stepper: World {
     /// Advances by one step.
     ///
     /// # Errors
     /// If the engine met a number that is none.
     fn step(&mut self) -> Result<(), Outcome>;
+}
 
+/// A body on the ground, under one of the engines. Parts are those of its [`Assembly`], by their index.
+pub trait World {
     /// Sets the speed that the motor of a part's hinge aims at, in rad/s.
     fn drive(&mut self, part: usize, target_rad_s: f64);
 
@@ -24,6 +27,11 @@ pub trait World {
 
     /// Where a part is.
     fn world_from_part(&self, part: usize) -> Isometry3<f64>;
+
+    /// Where a part's origin is, in metres.
+    fn position_m(&self, part: usize) -> Vector3<f64> {
+        self.world_from_part(part).translation.vector
+    }
 
     /// The velocity of a part's centre of mass, in m/s.
     fn velocity_m_s(&self, part: usize) -> Vector3<f64>;

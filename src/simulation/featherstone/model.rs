@@ -29,8 +29,8 @@ pub struct Link {
     pub mass_kg: f64,
     /// The rotational inertia about the centre of mass, along the link's axes, in kg·m².
     pub inertia_kg_m2: Matrix3<f64>,
-    /// The largest torque of the hinge's motor, in newton metres.
-    pub torque_nm_max: f64,
+    /// Whether it has a hinge that anything drives.
+    pub has_motor: bool,
     /// The assembly's frame of the part in the link's.
     pub link_from_part: Isometry3<f64>,
 }
@@ -77,11 +77,6 @@ impl Model {
 }
 
 impl Link {
-    /// Whether it has a hinge that anything drives.
-    pub fn has_motor(&self) -> bool {
-        self.torque_nm_max > 0.0
-    }
-
     fn new(part: &Part, parts: &[Part]) -> Self {
         let link_from_part = link_from_part(part);
         let turn = link_from_part.rotation.to_rotation_matrix();
@@ -95,7 +90,7 @@ impl Link {
             centre_m: (link_from_part * nalgebra::Point3::from(part.centre_m)).coords,
             mass_kg: part.mass_kg,
             inertia_kg_m2: turn.matrix() * part.inertia_kg_m2 * turn.matrix().transpose(),
-            torque_nm_max: part.hinge.map_or(0.0, |hinge| hinge.torque_nm_max),
+            has_motor: part.hinge.is_some_and(|hinge| hinge.torque_nm_max > 0.0),
             link_from_part,
         }
     }

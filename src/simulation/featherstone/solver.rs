@@ -5,9 +5,11 @@
 //! step begins with the impulses of the one before, which at rest are right already.
 
 use super::constraint::{Change, Contact, Entry, MotorRow, Root};
-use super::contact::{Facing, Level, Touch};
+use super::contact::{Facing, Touch};
 use super::factor::{Factor, Whitened};
+use super::lanes::{Everywhere, Mask, Real, Single};
 use super::spatial::Spatial;
+use super::width::Width;
 
 /// A sweep that corrects no velocity by more than this, in m/s or rad/s, is the last one: half a millimetre in a
 /// second is nothing that a body does.
@@ -18,35 +20,35 @@ const TOLERANCE: f32 = 5e-4;
 const SWEEPS_MAX: usize = 30;
 
 /// The constraints of a step.
-#[derive(Debug, Clone)]
-pub struct Solver<F = Level> {
+#[derive(Clone)]
+pub struct Solver<W: Width> {
     /// The coefficient of friction between the ground and a link.
-    grip: f32,
+    pub grip: Single<W>,
     /// The motors of loose hinges.
-    pub motors: Vec<MotorRow>,
+    pub motors: Vec<MotorRow<W>>,
     /// The contacts.
-    pub contacts: Vec<Contact<F>>,
-    motor_entries: Vec<Entry<1>>,
-    contact_entries: Vec<Entry<4>>,
+    pub contacts: Vec<Contact<W>>,
+    motor_entries: Vec<Entry<1, W>>,
+    contact_entries: Vec<Entry<3, W>>,
     /// What impulses have changed at each link's hinge.
-    hinges: Vec<f32>,
+    hinges: Vec<Single<W>>,
 }
 
-impl<F: Facing> Solver<F> {
-    /// Room for a body of so many links that may touch the ground, with such a coefficient of friction, at so many
-    /// points: a step allocates nothing.
-    pub fn new(links: usize, points: usize, grip: f64) -> Self {
+impl<W: Width> Solver<W> {
+    /// Room for a body of so many links that may touch the ground at so many points: a step allocates nothing.
+    pub fn new(width: W, links: usize, points: usize) -> Self {
         Self {
-            grip: grip as f32,
+            grip: width.single(0.0),
             motors: Vec::with_capacity(links),
             contacts: Vec::with_capacity(points),
             motor_entries: Vec::with_capacity(links * links),
             contact_entries: Vec::with_capacity(points * links),
-            hinges: vec![0.0; links],
+            hinges: vec![width.single(0.0); links],
         }
     }
 
     /// Forgets all constraints.
+    #[inline(always)]
     pub fn clear(&mut self) {
         self.motors.clear();
         self.contacts.clear();
@@ -54,53 +56,66 @@ impl<F: Facing> Solver<F> {
         self.contact_entries.clear();
     }
 
-    /// Adds the motor of a loose hinge that would turn too fast by a speed, with the impulse to begin with.
+    /// Adds the motor of a hinge that is loose in some worlds, where it would turn too fast by a speed, with the
+    /// impulse to begin with.
+    #[inline(always)]
     pub fn add_motor(
         &mut self,
         link: usize,
-        excess_rad_s: f64,
-        impulse_nms: f32,
-        bound_nms: f64,
-        factor: &Factor,
+        is_loose: Mask<W>,
+        excess_rad_s: Real<W>,
+        impulse_nms: Single<W>,
+        bound_nms: Real<W>,
+        factor: &Factor<W>,
     ) {
         let entries = &mut self.motor_entries;
-        let motor = MotorRow::new(link, excess_rad_s, impulse_nms, bound_nms, factor, entries);
+        let motor =
+            MotorRow::new(link, is_loose, excess_rad_s, impulse_nms, bound_nms, factor, entries);
         self.motors.push(motor);
     }
 
     /// Adds a contact of a link that would move by a velocity, with the impulse to begin with.
-    pub fn add_contact(
+    #[inline(always)]
+    pub fn add_contact<F: Facing<W>>(
         &mut self,
-        touch: Touch<F>,
-        free: &Spatial,
-        impulse_ns: [f32; 3],
-        step_s: f64,
-        factor: &Factor,
+        touch: &Touch<F, W>,
+        free: &Spatial<W>,
+        impulse_ns: [Single<W>; 3],
+        step_s: Real<W>,
+        factor: &Factor<W>,
     ) {
         let entries = &mut self.contact_entries;
         self.contacts.push(Contact::new(touch, free, impulse_ns, step_s, factor, entries));
     }
 
-    /// Finds the impulses, and adds what they change to whitened velocities.
-    pub fn solve(&mut self, velocities: &mut Whitened) {
+    /// Finds the impulses in some worlds, and adds what they change to whitened velocities. A world whose impulses are
+    /// found waits for the others.
+    #[inline(always)]
+    pub fn solve(&mut self, worlds: Mask<W>, velocities: &mut Whitened<W>) {
         let mut root = self.begin();
+        let mut improves = worlds;
+        let enough = self.grip.width.single(TOLERANCE * TOLERANCE);
         for _ in 0..SWEEPS_MAX {
-            if self.sweep(&mut root) < TOLERANCE * TOLERANCE {
+            let worst = self.sweep(improves, &mut root);
+            improves = improves & !worst.is_less(enough);
+            if !improves.any() {
                 break;
             }
         }
         for (velocity, change) in velocities.root.iter_mut().zip(root) {
-            *velocity += f64::from(change);
+            *velocity += change.double();
         }
         for (velocity, change) in velocities.hinges.iter_mut().zip(&self.hinges) {
-            *velocity += f64::from(*change);
+            *velocity += change.double();
         }
     }
 
     /// What the impulses to begin with change: at the hinges, and, returned, at the root.
-    fn begin(&mut self) -> Root {
-        self.hinges.fill(0.0);
-        let mut change = Change { root: Root::default(), hinges: &mut self.hinges };
+    #[inline(always)]
+    fn begin(&mut self) -> Root<W> {
+        let none = self.grip.width.single(0.0);
+        self.hinges.fill(none);
+        let mut change = Change { root: [none; 6], hinges: &mut self.hinges };
         for motor in &self.motors {
             motor.push(motor.impulse_nms, &mut change, &self.motor_entries);
         }
@@ -110,16 +125,18 @@ impl<F: Facing> Solver<F> {
         change.root
     }
 
-    /// Corrects every impulse once, and returns the largest square of a velocity that was wrong.
-    fn sweep(&mut self, root: &mut Root) -> f32 {
+    /// Corrects every impulse of some worlds once, and returns the largest square of a velocity that was wrong.
+    #[inline(always)]
+    fn sweep(&mut self, improves: Mask<W>, root: &mut Root<W>) -> Single<W> {
         // The root is copied so that it stays in registers from row to row.
         let mut change = Change { root: *root, hinges: &mut self.hinges };
-        let mut worst = 0.0_f32;
+        let mut worst = self.grip.width.single(0.0);
         for motor in &mut self.motors {
-            worst = worst.max(motor.improve(&mut change, &self.motor_entries));
+            worst = motor.improve(improves, &mut change, &self.motor_entries).max(worst);
         }
         for contact in &mut self.contacts {
-            worst = worst.max(contact.improve(&mut change, &self.contact_entries, self.grip));
+            let entries = &self.contact_entries;
+            worst = contact.improve(improves, &mut change, entries, self.grip).max(worst);
         }
         *root = change.root;
         worst

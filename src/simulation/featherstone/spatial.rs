@@ -3,45 +3,64 @@
 //! With one point for the whole body nothing has to be carried from link to link: velocities, wrenches and
 //! inertias of different parts are simply added.
 
+use super::lanes::{Everywhere, Real, Vec3};
+use super::width::{Alone, Width};
 use nalgebra::{Matrix3, Vector3};
-use std::ops::{Add, AddAssign, Index, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 /// A motion (angular over linear velocity of the body's point at the reference) or a wrench (moment about the
 /// reference over force). Which of them, its place says.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Spatial(pub [f64; 6]);
+#[derive(Clone, Copy)]
+pub struct Spatial<W: Width>(pub [Real<W>; 6]);
 
-impl Spatial {
+impl<W: Width> Spatial<W> {
     /// Nothing.
-    pub const ZERO: Self = Self([0.0; 6]);
+    #[inline(always)]
+    pub fn zero(width: W) -> Self {
+        Self([width.real(0.0); 6])
+    }
 
     /// An angular over a linear part.
-    #[inline]
-    pub fn new(angular: Vector3<f64>, linear: Vector3<f64>) -> Self {
-        Self([angular.x, angular.y, angular.z, linear.x, linear.y, linear.z])
+    #[inline(always)]
+    pub fn new(angular: Vec3<W>, linear: Vec3<W>) -> Self {
+        let ([a, b, c], [x, y, z]) = (angular.0, linear.0);
+        Self([a, b, c, x, y, z])
     }
 
     /// The upper half: an angular velocity, or a moment.
-    #[inline]
-    pub fn angular(&self) -> Vector3<f64> {
-        Vector3::new(self.0[0], self.0[1], self.0[2])
+    #[inline(always)]
+    pub fn angular(&self) -> Vec3<W> {
+        Vec3([self.0[0], self.0[1], self.0[2]])
     }
 
     /// The lower half: a linear velocity, or a force.
-    #[inline]
-    pub fn linear(&self) -> Vector3<f64> {
-        Vector3::new(self.0[3], self.0[4], self.0[5])
+    #[inline(always)]
+    pub fn linear(&self) -> Vec3<W> {
+        Vec3([self.0[3], self.0[4], self.0[5]])
+    }
+
+    /// What it is in one world.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Spatial<Alone> {
+        Spatial::new(self.angular().lane(lane), self.linear().lane(lane))
+    }
+
+    /// Sets what it is in one world.
+    pub fn set_lane(&mut self, lane: usize, spatial: Spatial<Alone>) {
+        for (x, new) in self.0.iter_mut().zip(spatial.0) {
+            x.set(lane, new.get(0));
+        }
     }
 
     /// The power of a wrench on a motion.
-    #[inline]
-    pub fn dot(&self, other: &Self) -> f64 {
-        let product = |i: usize| self.0[i] * other.0[i];
-        (product(0) + product(1) + product(2)) + (product(3) + product(4) + product(5))
+    #[inline(always)]
+    pub fn dot(&self, other: &Self) -> Real<W> {
+        let (a, b) = (&self.0, &other.0);
+        (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
     }
 
     /// How this motion changes in a body that moves by a velocity: the cross product for motions (eq. 2.31).
-    #[inline]
+    #[inline(always)]
     pub fn carried_by(&self, velocity: &Self) -> Self {
         let (turn, shift) = (velocity.angular(), velocity.linear());
         let (angular, linear) = (self.angular(), self.linear());
@@ -49,167 +68,222 @@ impl Spatial {
     }
 
     /// The velocity of the body's point at a place, for a motion.
-    #[inline]
-    pub fn velocity_at(&self, place: &Vector3<f64>) -> Vector3<f64> {
+    #[inline(always)]
+    pub fn velocity_at(&self, place: &Vec3<W>) -> Vec3<W> {
         self.linear() + self.angular().cross(place)
     }
 
     /// The wrench of a force, or of an impulse, at a place.
-    #[inline]
-    pub fn of_force_at(force: &Vector3<f64>, place: &Vector3<f64>) -> Self {
+    #[inline(always)]
+    pub fn of_force_at(force: &Vec3<W>, place: &Vec3<W>) -> Self {
         Self::new(place.cross(force), *force)
     }
 
     /// This wrench with another reference, which is there in terms of the present one.
-    #[inline]
-    pub fn wrench_about(&self, place: &Vector3<f64>) -> Self {
+    #[inline(always)]
+    pub fn wrench_about(&self, place: &Vec3<W>) -> Self {
         Self::new(self.angular() - place.cross(&self.linear()), self.linear())
     }
+
+    /// Times a number.
+    #[inline(always)]
+    pub fn times(&self, factor: Real<W>) -> Self {
+        let [a, b, c, x, y, z] = self.0;
+        Self([a * factor, b * factor, c * factor, x * factor, y * factor, z * factor])
+    }
 }
 
-impl Add for Spatial {
+impl<W: Width> Add for Spatial<W> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+        Self::new(self.angular() + other.angular(), self.linear() + other.linear())
     }
 }
 
-impl Sub for Spatial {
+impl<W: Width> Sub for Spatial<W> {
     type Output = Self;
 
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
+        Self::new(self.angular() - other.angular(), self.linear() - other.linear())
     }
 }
 
-impl AddAssign for Spatial {
-    #[inline]
+impl<W: Width> AddAssign for Spatial<W> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Spatial {
-    #[inline]
+impl<W: Width> SubAssign for Spatial<W> {
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl Neg for Spatial {
+impl<W: Width> Mul<Real<W>> for Spatial<W> {
     type Output = Self;
 
-    #[inline]
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
+    #[inline(always)]
+    fn mul(self, factor: Real<W>) -> Self {
+        self.times(factor)
     }
 }
 
-impl Mul<f64> for Spatial {
-    type Output = Self;
+/// A matrix in each world, as columns.
+#[derive(Clone, Copy)]
+pub struct Mat3<W: Width>(pub [Vec3<W>; 3]);
 
-    #[inline]
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|x| x * factor))
+impl<W: Width> Mat3<W> {
+    /// The same matrix in every world.
+    pub fn everywhere(width: W, matrix: &Matrix3<f64>) -> Self {
+        Self([0, 1, 2].map(|i| width.vector(&matrix.column(i).into_owned())))
+    }
+
+    /// The matrix in one world.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Mat3<Alone> {
+        Mat3(self.0.map(|column| column.lane(lane)))
+    }
+
+    /// Rows for columns.
+    #[inline(always)]
+    pub fn transposed(&self) -> Self {
+        let [Vec3([xx, yx, zx]), Vec3([xy, yy, zy]), Vec3([xz, yz, zz])] = self.0;
+        Self([Vec3([xx, xy, xz]), Vec3([yx, yy, yz]), Vec3([zx, zy, zz])])
+    }
+
+    /// The product with a vector.
+    #[inline(always)]
+    pub fn applied(&self, vector: &Vec3<W>) -> Vec3<W> {
+        let [x, y, z] = vector.0;
+        self.0[0].times(x) + self.0[1].times(y) + self.0[2].times(z)
+    }
+
+    /// The product with a vector that is the same in every world.
+    #[inline(always)]
+    pub fn applied_to(&self, vector: &Vector3<f64>) -> Vec3<W> {
+        self.0[0] * vector.x + self.0[1] * vector.y + self.0[2] * vector.z
+    }
+
+    /// The product with a matrix.
+    #[inline(always)]
+    pub fn product(&self, right: &Self) -> Self {
+        let [x, y, z] = &right.0;
+        Self([self.applied(x), self.applied(y), self.applied(z)])
+    }
+
+    /// The product with a matrix that is the same in every world.
+    #[inline(always)]
+    pub fn product_with(&self, right: &Matrix3<f64>) -> Self {
+        let mut product = *self;
+        for (i, column) in product.0.iter_mut().enumerate() {
+            *column = self.applied_to(&right.column(i).into_owned());
+        }
+        product
     }
 }
 
 /// The inertia of a rigid body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RigidInertia {
+#[derive(Clone, Copy)]
+pub struct RigidInertia<W: Width> {
     /// The mass, in kilograms.
     pub mass_kg: f64,
     /// The centre of mass, from the reference, in metres.
-    pub centre_m: Vector3<f64>,
+    pub centre_m: Vec3<W>,
     /// The rotational inertia about the centre of mass, in kg·m².
-    pub about_centre: Matrix3<f64>,
+    pub about_centre: Mat3<W>,
 }
 
-impl RigidInertia {
+impl<W: Width> RigidInertia<W> {
+    /// What it is in one world.
+    pub fn lane(&self, lane: usize) -> RigidInertia<Alone> {
+        RigidInertia {
+            mass_kg: self.mass_kg,
+            centre_m: self.centre_m.lane(lane),
+            about_centre: self.about_centre.lane(lane),
+        }
+    }
+
     /// The momentum that a motion has.
-    #[inline]
-    pub fn times(&self, motion: &Spatial) -> Spatial {
+    #[inline(always)]
+    pub fn times(&self, motion: &Spatial<W>) -> Spatial<W> {
         let momentum = motion.velocity_at(&self.centre_m) * self.mass_kg;
-        let spin = applied(&self.about_centre, &motion.angular());
+        let spin = self.about_centre.applied(&motion.angular());
         Spatial::new(spin + self.centre_m.cross(&momentum), momentum)
     }
 
-    /// All six columns (eq. 2.63).
-    #[inline]
-    pub fn spread(&self) -> Inertia {
-        let mass_kg = self.mass_kg;
-        let (x, y, z) = (self.centre_m.x, self.centre_m.y, self.centre_m.z);
-        let (mx, my, mz) = (mass_kg * x, mass_kg * y, mass_kg * z);
-        let about = |row, column| self.about_centre[(row, column)];
-        let (yx, zx, zy) = (about(1, 0) - my * x, about(2, 0) - mz * x, about(2, 1) - mz * y);
-        let xx = about(0, 0) + my * y + mz * z;
-        let yy = about(1, 1) + mx * x + mz * z;
-        let zz = about(2, 2) + mx * x + my * y;
+    /// All of its entries (eq. 2.63).
+    #[inline(always)]
+    pub fn spread(&self) -> Inertia<W> {
+        let [x, y, z] = self.centre_m.0;
+        let (mx, my, mz) = (x * self.mass_kg, y * self.mass_kg, z * self.mass_kg);
+        let [Vec3([xx, yx, zx]), Vec3([_, yy, zy]), Vec3([_, _, zz])] = self.about_centre.0;
+        let (yx, zx, zy) = (yx - my * x, zx - mz * x, zy - mz * y);
+        let xx = xx + my * y + mz * z;
+        let yy = yy + mx * x + mz * z;
+        let zz = zz + mx * x + my * y;
+        let (none, mass) = (x.width.real(0.0), x.width.real(self.mass_kg));
         Inertia([
-            Spatial([xx, yx, zx, 0.0, -mz, my]),
-            Spatial([yx, yy, zy, mz, 0.0, -mx]),
-            Spatial([zx, zy, zz, -my, mx, 0.0]),
-            Spatial([0.0, mz, -my, mass_kg, 0.0, 0.0]),
-            Spatial([-mz, 0.0, mx, 0.0, mass_kg, 0.0]),
-            Spatial([my, -mx, 0.0, 0.0, 0.0, mass_kg]),
+            [xx, none, none, none, none, none],
+            [yx, yy, none, none, none, none],
+            [zx, zy, zz, none, none, none],
+            [none, mz, -my, mass, none, none],
+            [-mz, none, mx, none, mass, none],
+            [my, -mx, none, none, none, mass],
         ])
     }
 }
 
-/// The product of a matrix and a vector.
-#[inline]
-pub fn applied(matrix: &Matrix3<f64>, vector: &Vector3<f64>) -> Vector3<f64> {
-    let column = |i: usize| matrix.column(i) * vector[i];
-    column(0) + column(1) + column(2)
-}
+/// A spatial inertia, rigid or articulated: symmetric, and of its rows only what is up to the diagonal is used.
+#[derive(Clone, Copy)]
+pub struct Inertia<W: Width>([[Real<W>; 6]; 6]);
 
-/// The product of two matrices.
-#[inline]
-pub fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
-    let column = |i: usize| applied(left, &right.column(i).into_owned());
-    Matrix3::from_columns(&[column(0), column(1), column(2)])
-}
-
-/// A spatial inertia, rigid or articulated: six columns, symmetric.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Inertia([Spatial; 6]);
-
-impl Inertia {
+impl<W: Width> Inertia<W> {
     /// Nothing.
-    pub const ZERO: Self = Self([Spatial::ZERO; 6]);
+    pub fn zero(width: W) -> Self {
+        Self([[width.real(0.0); 6]; 6])
+    }
+
+    /// An entry.
+    #[inline(always)]
+    pub fn at(&self, row: usize, column: usize) -> Real<W> {
+        if row >= column { self.0[row][column] } else { self.0[column][row] }
+    }
 
     /// The wrench that gives a motion in a unit of time, or its momentum.
-    #[inline]
-    pub fn times(&self, motion: &Spatial) -> Spatial {
-        let column = |i: usize| self.0[i] * motion.0[i];
-        (column(0) + column(1) + column(2)) + (column(3) + column(4) + column(5))
+    #[inline(always)]
+    pub fn times(&self, motion: &Spatial<W>) -> Spatial<W> {
+        let m = &motion.0;
+        let mut wrench = *motion;
+        for (i, sum) in wrench.0.iter_mut().enumerate() {
+            *sum = (self.at(i, 0) * m[0] + self.at(i, 1) * m[1] + self.at(i, 2) * m[2])
+                + (self.at(i, 3) * m[3] + self.at(i, 4) * m[4] + self.at(i, 5) * m[5]);
+        }
+        wrench
     }
 
     /// Adds another inertia.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, other: &Self) {
-        for (column, other) in self.0.iter_mut().zip(&other.0) {
-            *column += *other;
+        for row in 0..6 {
+            for column in 0..=row {
+                self.0[row][column] += other.0[row][column];
+            }
         }
     }
 
     /// Takes away the product of a wrench with itself.
-    #[inline]
-    pub fn subtract_square(&mut self, wrench: &Spatial) {
-        for (column, factor) in self.0.iter_mut().zip(wrench.0) {
-            *column -= *wrench * factor;
+    #[inline(always)]
+    pub fn subtract_square(&mut self, wrench: &Spatial<W>) {
+        for row in 0..6 {
+            for column in 0..=row {
+                self.0[row][column] -= wrench.0[row] * wrench.0[column];
+            }
         }
-    }
-}
-
-impl Index<(usize, usize)> for Inertia {
-    type Output = f64;
-
-    #[inline]
-    fn index(&self, (row, column): (usize, usize)) -> &f64 {
-        &self.0[column].0[row]
     }
 }

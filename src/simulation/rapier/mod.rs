@@ -12,7 +12,7 @@ pub use field::Field;
 
 use super::assembly::{Assembly, Hinge, Part, Solid};
 use super::trial::Trial;
-use super::world::World;
+use super::world::{Stepper, World};
 use crate::creature::{Inertia, Shape};
 use crate::evolution::Outcome;
 use nalgebra::{Isometry3, Quaternion, UnitQuaternion, Vector3};
@@ -91,13 +91,15 @@ impl RapierWorld {
     }
 }
 
-impl World for RapierWorld {
+impl Stepper for RapierWorld {
     fn step(&mut self) -> Result<(), Outcome> {
         self.scene.world.step();
         let is_sound = self.scene.world.quarantine().is_empty();
         if is_sound { Ok(()) } else { Err(Outcome::NotFinite) }
     }
+}
 
+impl World for RapierWorld {
     fn drive(&mut self, part: usize, target_rad_s: f64) {
         let Some(joint) = self.parts[part].1 else { return };
         let Some((multibody, id)) = self.scene.world.multibody_joints.get_mut(joint) else {

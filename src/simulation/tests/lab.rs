@@ -6,13 +6,13 @@ use super::super::featherstone::{FeatherstoneWorld, Relief};
 use super::super::rapier::RapierWorld;
 use super::super::terrain::Ground;
 use super::super::trial::Trial;
-use super::super::world::{self, World};
+use super::super::world::{self, Stepper};
 use crate::creature::Creature;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// A body in an engine's world.
 pub struct Lab {
-    pub world: Box<dyn World>,
+    pub world: Box<dyn Stepper>,
     assembly: Assembly,
     trial: Trial,
 }
@@ -31,7 +31,7 @@ pub struct Motion {
 impl Lab {
     pub fn new(engine: Engine, creature: &Creature, trial: Trial) -> Self {
         let assembly = Assembly::new(creature, &trial);
-        let world: Box<dyn World> = match (engine, trial.ground) {
+        let world: Box<dyn Stepper> = match (engine, trial.ground) {
             (Engine::Rapier, _) => Box::new(RapierWorld::new(&assembly, &trial)),
             (Engine::Featherstone, Ground::Plane) => {
                 Box::new(FeatherstoneWorld::new(&assembly, &trial))

@@ -1,0 +1,152 @@
+//! One world of several that go side by side: what can be seen of it and done to it.
+
+use super::contact::Footing;
+use super::lanes::Everywhere;
+use super::spatial::Spatial;
+use super::width::{Alone, Width};
+use super::{FeatherstoneWorld, kinematics};
+use crate::evolution::Outcome;
+use crate::simulation::world::{Stepper, World};
+use nalgebra::{Isometry3, Translation3, Vector3};
+
+impl<G: Footing<W>, W: Width> FeatherstoneWorld<G, W> {
+    fn check(&self, lane: usize) -> Result<(), Outcome> {
+        let rates: f64 = self.rates_rad_s.iter().map(|rate| rate.get(lane)).sum();
+        let root: f64 = self.velocities[0].0.iter().map(|number| number.get(lane)).sum();
+        let position_m = self.configuration.position_m.lane(lane).alone().sum();
+        let is_finite = (rates + root + position_m).is_finite();
+        if is_finite { Ok(()) } else { Err(Outcome::NotFinite) }
+    }
+
+    fn push_one(&mut self, lane: usize, velocity_m_s: Vector3<f64>) {
+        let velocity_m_s = Alone.vector(&velocity_m_s);
+        let push = Spatial::new(Alone.vector(&Vector3::zeros()), velocity_m_s);
+        let ahead_m = velocity_m_s * (0.5 * self.step_s.get(lane));
+        let position_m = self.midway.position_m.lane(lane) + ahead_m;
+        self.midway.position_m.set_lane(lane, position_m);
+        for (index, place) in self.places.iter().enumerate() {
+            let (velocity, momentum) = (&mut self.velocities[index], &mut self.momenta[index]);
+            velocity.set_lane(lane, velocity.lane(lane) + push);
+            momentum.set_lane(lane, momentum.lane(lane) + place.inertia.lane(lane).times(&push));
+        }
+    }
+
+    fn pose(&self, lane: usize, part: usize) -> Isometry3<f64> {
+        let (rotation, origin_m) = self.configuration.world_from_link(lane, &self.model, part);
+        let translation = Translation3::from(origin_m.alone());
+        let world_from_link = Isometry3::from_parts(translation, kinematics::quaternion(&rotation));
+        world_from_link * self.model.links[part].link_from_part
+    }
+
+    fn position(&self, lane: usize, part: usize) -> Vector3<f64> {
+        let at_m = &self.model.links[part].link_from_part.translation.vector;
+        self.configuration.world_point_m(lane, &self.model, part, at_m).alone()
+    }
+
+    fn velocity(&self, lane: usize, part: usize) -> Vector3<f64> {
+        let centre_m = self.places[part].inertia.centre_m.lane(lane);
+        self.velocities[part].lane(lane).velocity_at(&centre_m).alone()
+    }
+
+    #[cfg(test)]
+    fn kick_one(&mut self, lane: usize, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>) {
+        let rigid = Spatial::new(Alone.vector(&turn_rad_s), Alone.vector(&velocity_m_s));
+        self.stop(lane);
+        let mut midway = kinematics::Configuration::new(self.width, self.places.len());
+        midway.follow(&self.configuration);
+        let rates_rad_s = vec![self.width.real(0.0); self.places.len()];
+        let all = Spatial(rigid.0.map(|number| self.width.real(number.get(0))));
+        midway.advance(&all, &rates_rad_s, self.step_s * 0.5);
+        self.midway.copy_lane(lane, &midway);
+        self.midway.place(&self.model, &mut self.places);
+        for (index, place) in self.places.iter().enumerate() {
+            self.velocities[index].set_lane(lane, rigid);
+            self.momenta[index].set_lane(lane, place.inertia.lane(lane).times(&rigid));
+        }
+    }
+}
+
+/// One world of several that go side by side.
+pub struct Lane<'a, G: Footing<W>, W: Width> {
+    pub(super) worlds: &'a mut FeatherstoneWorld<G, W>,
+    pub(super) lane: usize,
+}
+
+impl<G: Footing<W>, W: Width> Lane<'_, G, W> {
+    /// Looks at the numbers of the last step.
+    ///
+    /// # Errors
+    /// If one of them is none.
+    pub fn check(&self) -> Result<(), Outcome> {
+        self.worlds.check(self.lane)
+    }
+}
+
+impl<G: Footing<W>, W: Width> World for Lane<'_, G, W> {
+    fn drive(&mut self, part: usize, target_rad_s: f64) {
+        self.worlds.targets_rad_s[part].set(self.lane, target_rad_s);
+    }
+
+    fn halt(&mut self) {
+        self.worlds.stop(self.lane);
+    }
+
+    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+        self.worlds.push_one(self.lane, velocity_m_s);
+    }
+
+    fn world_from_part(&self, part: usize) -> Isometry3<f64> {
+        self.worlds.pose(self.lane, part)
+    }
+
+    fn position_m(&self, part: usize) -> Vector3<f64> {
+        self.worlds.position(self.lane, part)
+    }
+
+    fn velocity_m_s(&self, part: usize) -> Vector3<f64> {
+        self.worlds.velocity(self.lane, part)
+    }
+
+    #[cfg(test)]
+    fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>) {
+        self.worlds.kick_one(self.lane, velocity_m_s, turn_rad_s);
+    }
+}
+
+impl<G: Footing<Alone>> World for FeatherstoneWorld<G> {
+    fn drive(&mut self, part: usize, target_rad_s: f64) {
+        self.lane(0).drive(part, target_rad_s);
+    }
+
+    fn halt(&mut self) {
+        self.lane(0).halt();
+    }
+
+    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+        self.lane(0).push(velocity_m_s);
+    }
+
+    fn world_from_part(&self, part: usize) -> Isometry3<f64> {
+        self.pose(0, part)
+    }
+
+    fn position_m(&self, part: usize) -> Vector3<f64> {
+        self.position(0, part)
+    }
+
+    fn velocity_m_s(&self, part: usize) -> Vector3<f64> {
+        self.velocity(0, part)
+    }
+
+    #[cfg(test)]
+    fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>) {
+        self.lane(0).kick(velocity_m_s, turn_rad_s);
+    }
+}
+
+impl<G: Footing<Alone>> Stepper for FeatherstoneWorld<G> {
+    fn step(&mut self) -> Result<(), Outcome> {
+        self.step_all();
+        self.check(0)
+    }
+}
