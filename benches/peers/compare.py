@@ -21,7 +21,9 @@ MuJoCo    The implicitfast integrator, which its manual recommends for velocity 
           (Newton, up to 100 iterations, pyramidal cones) and contacts. Velocity servos of gain {gain} N·m·s/rad
           whose force is limited, joints without friction or damping, an armature of {armature} kg·m². From one motor
           update to the next is a single call of mj_step with nstep=24, so that Python costs nothing.
-islands   `islands evaluate --profile coursework --task course --threads 1`, with each engine that it has.
+          Hurried, it has half as many steps, and few iterations: only its speed is compared.
+islands   `islands evaluate --profile coursework --task course --threads 1`, with each engine that it has;
+          of its own one also the speed of trials that go side by side: eight of a body, each perturbed (`--robustness`).
 
 Only the simulation is timed: neither the start of processes, nor the reading of files. Of the peers it is the loop of
 steps alone; of islands the `wall_seconds` that it prints, which include making the body out of the genome. A trial that

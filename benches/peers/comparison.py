@@ -54,7 +54,7 @@ def _add_mixed_set(plan: Plan, folder: Path, figures: dict[str, Any], tables: li
     tables.append(report.soundness_table(moves))
     if "speed" in plan.parts:
         whole = [c for i, c in enumerate(mixed) if all(of.sound[i] for of in moves.values())]
-        subsets = speed.measure(speed.batches(whole), programs, plan.rounds)
+        subsets = speed.measure(speed.batches(whole), engines.timed_of(plan.islands), plan.rounds)
         figures["speed"] = _plain(subsets)
         tables += report.speed_tables(subsets, plan.rounds)
     if "agreement" in plan.parts:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from agreement import Correlation, HandMade, Moves
-from engines import PEERS
+from engines import HURRIED, PEERS
 from speed import Subset
 
 
@@ -49,13 +49,14 @@ def soundness_table(moves: dict[str, Moves]) -> Table:
 def speed_tables(subsets: list[Subset], rounds: int) -> list[Table]:
     """What was timed: evaluations and steps a second, and ratios."""
     engines = list(subsets[0].seconds)
-    ours = [engine for engine in engines if engine not in PEERS]
-    pairs = [(engine, peer) for engine in ours for peer in PEERS]
+    peers = [*PEERS, *HURRIED]
+    ours = [engine for engine in engines if engine not in peers]
+    pairs = [(engine, peer) for engine in ours for peer in peers]
     rows = [[subset.name, str(subset.creatures)] for subset in subsets]
     of_rounds = "1 round" if rounds == 1 else f"{rounds} rounds"
     return [
         Table(
-            f"Evaluations a second, median of {of_rounds}",
+            f"Trials a second, median of {of_rounds}",
             ["creatures", "number", *engines],
             [row + [_three(subset.evaluations_per_s(e)) for e in engines] for row, subset in zip(rows, subsets)],
         ),

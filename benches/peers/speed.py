@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import bodies
 from creatures import Creature
-from engines import PEERS, Islands
+from engines import HURRIED, PEERS, Islands, Trial
 
 # The largest number of links of each class that tables show.
 CLASSES = ((1, 2), (3, 4), (5, 6), (7, 9), (10, 14), (15, 21), (22, 30))
@@ -66,7 +66,7 @@ def batches(creatures: list[Creature]) -> list[Batch]:
 
 def measure(work: list[Batch], programs: list[Islands], rounds: int) -> list[Subset]:
     """Times every engine on every batch, and sums it up by sets and by numbers of links."""
-    timers = {name: _peer_timer(name) for name in PEERS}
+    timers = {name: _peer_timer(peer) for name, peer in (PEERS | HURRIED).items()}
     timers |= {program.name: _program_timer(program) for program in programs}
     seconds: dict[tuple[Batch, str], list[float]] = {(b, name): [] for b in work for name in timers}
     for round_number in range(rounds):
@@ -78,12 +78,12 @@ def measure(work: list[Batch], programs: list[Islands], rounds: int) -> list[Sub
     return [_subset(name, chosen, seconds, list(timers)) for name, chosen in _rows(work)]
 
 
-def _peer_timer(name: str) -> Callable[[Batch], float]:
-    return lambda batch: sum(PEERS[name](creature.body).seconds for creature in batch.creatures)
+def _peer_timer(peer: Callable[..., Trial]) -> Callable[[Batch], float]:
+    return lambda batch: sum(peer(creature.body).seconds for creature in batch.creatures)
 
 
 def _program_timer(program: Islands) -> Callable[[Batch], float]:
-    return lambda batch: program.evaluate(batch.creatures)[0]
+    return lambda batch: program.seconds_a_trial(batch.creatures)
 
 
 def _rotated(names: list[str], by: int) -> list[str]:
