@@ -4,8 +4,8 @@
 //! the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`]. [`actuator`] plays its motors, [`settling`] brings
 //! it to rest on the [`terrain`] before it is scored, [`stability`] ends what has blown up, [`trajectory`] is what can
 //! be seen of it. [`perturbation`] says what may differ from one trial of a body to the next. [`simulate`] runs it and
-//! returns what was measured; what of that is worth how much is for a task to say. An [`attempt`] is a trial under way,
-//! and several of one body go [`abreast`], which is faster and changes no bit.
+//! returns what was measured; what of that is worth how much is for a task to say. An attempt is a trial under way,
+//! and several of one body go abreast, which is faster and changes no bit.
 
 mod abreast;
 pub mod actuator;
