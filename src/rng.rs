@@ -31,6 +31,8 @@ pub enum Purpose {
     Mutation = 3,
     /// What is drawn from a distribution that learns, and where that begins again.
     Sampling = 4,
+    /// Who lives on, where chance decides it.
+    Survival = 5,
     /// Where a benchmark has its optimum: drawn once, for all runs alike.
     Instance = 16,
     /// What differs in a trial: drawn for a trial's index alone, for all runs alike.

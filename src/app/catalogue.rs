@@ -7,7 +7,7 @@ use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::choice;
 use crate::creature::gene::PARAMETER_COUNT;
-use crate::evolution::{Crossover, Mutation, Selection, cma};
+use crate::evolution::{Crossover, Mutation, Selection, Survival, cma};
 use crate::problems::{Benchmark, Bits, Function, Pattern};
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -35,12 +35,14 @@ pub trait Visitor {
 }
 
 /// What of a configuration decides its defaults.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Wish {
     /// The problem; creatures if none is said.
     pub problem: Option<Kind>,
     /// Variables or bits; as many as are usual if none are said.
     pub dimensions: Option<usize>,
+    /// Who lives on; all but elites die if nothing is said.
+    pub survival: Option<Survival>,
 }
 
 /// Settings that mean something to creatures alone.
@@ -105,6 +107,15 @@ impl Config {
     /// changes at a time, and evaluating it takes microseconds: there are more generations, and a state is saved less
     /// often than evolved.
     pub fn default_for(wish: Wish) -> Self {
+        let usual = Self::default_of(wish);
+        match wish.survival {
+            // With tournaments the niches of fitness sharing come and go (Oei, Goldberg & Chang 1991).
+            Some(Survival::Sharing { .. }) => Self { selection: Selection::Sus, ..usual },
+            _ => usual,
+        }
+    }
+
+    fn default_of(wish: Wish) -> Self {
         let problem = wish.problem.unwrap_or_default();
         let dimensions = wish.dimensions.unwrap_or(problem.usual_dimensions());
         let fixed = Self {
@@ -196,7 +207,8 @@ impl Config {
     pub(super) fn check_use(&self) -> Result<(), Failure> {
         let Self { problem, dimensions, .. } = *self;
         // What is of no use to creatures needs no problem that it is of use to.
-        let wish = Wish { problem: Some(problem), dimensions: Some(dimensions) };
+        let survival = Some(self.survival);
+        let wish = Wish { problem: Some(problem), dimensions: Some(dimensions), survival };
         let table = |config: &Self| Table::try_from(config).map_err(|error| error.to_string());
         let tables = table(self).and_then(|said| Ok((said, table(&Self::default_for(wish))?)));
         let (said, usual) = tables.map_err(Failure::usage)?;
@@ -206,6 +218,12 @@ impl Config {
             return Err(Failure::usage(format!(
                 "{name} means nothing to {}: leave it out, or choose another --algorithm",
                 self.algorithm
+            )));
+        }
+        if let Some(name) = self.unselective().iter().find(|name| differs(name)) {
+            return Err(Failure::usage(format!(
+                "{name} means nothing to {}: leave it out, or choose another --survival",
+                self.survival
             )));
         }
         match problem.useless().into_iter().find(differs) {
@@ -222,6 +240,16 @@ impl Config {
             Algorithm::Ga => &[],
             Algorithm::Panmictic => &["heterogeneous"],
             Algorithm::Random | Algorithm::HillClimb | Algorithm::CmaEs => &IDLE,
+        }
+    }
+
+    /// The names of the settings that mean nothing to a scheme of survival in which it is survival that selects.
+    fn unselective(&self) -> &'static [&'static str] {
+        match self.survival {
+            Survival::Crowding | Survival::Afpo | Survival::MapElites { .. } => {
+                &["selection", "elites"]
+            }
+            Survival::Generational | Survival::Drifting | Survival::Sharing { .. } => &[],
         }
     }
 }
@@ -253,7 +281,7 @@ mod tests {
     use crate::rng::{Purpose, Source};
 
     fn usual(problem: Kind) -> Config {
-        Config::default_for(Wish { problem: Some(problem), dimensions: None })
+        Config::default_for(Wish { problem: Some(problem), ..Wish::default() })
     }
 
     #[test]
@@ -285,6 +313,32 @@ mod tests {
         let config = config.expect("it is sound");
         assert_eq!((config.genes, config.max_genes, config.point_rate), (8, 8, 0.125));
         assert_eq!((config.population, config.generations), (9, 1_000));
+    }
+
+    #[test]
+    fn with_sharing_parents_are_not_picked_by_tournaments_unless_it_is_said() {
+        let selection = |text: &str| Config::parse(text).expect("it is sound").selection;
+        assert_eq!(selection("survival = \"sharing:0.2\""), Selection::Sus);
+        assert_eq!(selection("problem = \"trap\"\nsurvival = \"sharing\""), Selection::Sus);
+        let said = "survival = \"sharing\"\nselection = \"tournament:3\"";
+        assert_eq!(selection(said), Selection::Tournament { size: 3 });
+    }
+
+    #[test]
+    fn what_means_nothing_to_a_scheme_of_survival_is_refused_by_name() {
+        for survival in ["crowding", "afpo", "map-elites"] {
+            for (name, setting) in [("selection", "selection = \"sus\""), ("elites", "elites = 1")]
+            {
+                let text = format!("survival = \"{survival}\"\n{setting}");
+                let config = Config::parse(&text).expect("it can be read");
+                let refusal = config.check().expect_err("it means nothing").message;
+                let said = format!("{name} means nothing to {survival}");
+                assert!(refusal.starts_with(&said), "{refusal}");
+            }
+            let panmictic = format!("survival = \"{survival}\"\nalgorithm = \"panmictic\"");
+            let config = Config::parse(&panmictic).expect("it can be read").settled();
+            assert!(config.check().is_ok(), "{survival}");
+        }
     }
 
     #[test]

@@ -263,7 +263,10 @@ impl Config {
             Algorithm::Panmictic => {
                 let islands = self.islands as usize;
                 let population = self.population.saturating_mul(islands);
-                let elites = self.elites.saturating_mul(islands);
+                let elites = match self.survival.is_steady() {
+                    true => self.elites,
+                    false => self.elites.saturating_mul(islands),
+                };
                 Self { islands: 1, population, elites, heterogeneous: false, ..self }
             }
             _ => self,

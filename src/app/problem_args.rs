@@ -30,7 +30,7 @@ pub struct ProblemArgs {
 impl ProblemArgs {
     /// What of them decides the defaults of all other settings.
     pub fn wish(&self) -> Wish {
-        Wish { problem: self.problem, dimensions: self.dimensions }
+        Wish { problem: self.problem, dimensions: self.dimensions, ..Wish::default() }
     }
 
     /// Lays the flags over a configuration.

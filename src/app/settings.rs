@@ -63,13 +63,13 @@ pub struct SettingArgs {
     #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
     pub max_links: Option<usize>,
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
-    /// [default: tournament:3]
+    /// [default: tournament:3; sus with --survival sharing]
     #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
     pub selection: Option<Selection>,
     /// How many of the best live on unchanged [default: 2]
     #[arg(long, value_name = "E", help_heading = "Genetic algorithm")]
     pub elites: Option<usize>,
-    /// How the next population is made: generational, sharing:RADIUS, crowding, afpo or map-elites:BINS
+    /// How the next population is made: generational, drifting, sharing:RADIUS, crowding, afpo or map-elites:BINS
     /// [default: generational]
     #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
     pub survival: Option<Survival>,

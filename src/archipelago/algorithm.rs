@@ -15,7 +15,8 @@ pub enum Algorithm {
     /// Random search: every genome is a random one.
     Random,
     /// A hill climber on each island: all offspring are mutants of the best so far, an evolution strategy (1 + λ)
-    /// (Rechenberg 1973) with the islands' mutation.
+    /// (Rechenberg 1973) with the islands' mutation. Who is as good as the best takes its place, so that it can cross
+    /// what is flat.
     HillClimb,
     /// CMA-ES on each island: see [`crate::evolution::cma`].
     CmaEs,
@@ -53,7 +54,7 @@ impl Algorithm {
                 with(Strategy {
                     selection,
                     variation,
-                    survival,
+                    survival: Survival::Drifting,
                     elites: 1,
                     heterogeneous,
                     ..strategy

@@ -132,9 +132,10 @@ pub fn step<P: Problem>(
     let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population, &hurdles);
     let births = Births::of(generation, &memory, &brood);
-    let mut anew = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
-    let memory = memory.after::<P>(&population, &brood, strategy, &mut anew);
-    let next = strategy.survival.survivors(problem, &population, brood, strategy.elites);
+    let stream = |purpose| moment.source.stream(generation, u32::MAX, purpose);
+    let memory = memory.after::<P>(&population, &brood, strategy, &mut stream(Purpose::Sampling));
+    let (survival, mut fate) = (strategy.survival, stream(Purpose::Survival));
+    let next = survival.survivors(problem, &population, brood, strategy.elites, &mut fate);
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
     let better = contender.filter(|contender| contender.fitness > champion.fitness);

@@ -1,5 +1,9 @@
 //! CMA-ES, the covariance matrix adaptation evolution strategy, after Hansen's tutorial (2016, arXiv:1604.00772): a
-//! baseline for genomes of a fixed number of real values.
+//! baseline for genomes of a fixed number of real values. It restarts with twice as many samples as before: IPOP (Auger
+//! & Hansen 2005).
+//!
+//! A generation has as many samples as an island has individuals, always; an update that needs more waits for several
+//! generations.
 //!
 //! It is written here, and not taken from a library, because its whole state must be what an island saves: a run of it
 //! survives a kill like any other.
@@ -19,6 +23,13 @@ pub const FIRST_STEP: f64 = 0.3;
 const SIGMA_MAX: f64 = 1e3;
 const COVARIANCE_MAX: f64 = 1e12;
 
+/// So often the number of samples is doubled at most, as in the paper.
+const DOUBLINGS_MAX: u32 = 9;
+/// An update has no more values in all of its samples than this: they are part of what an island saves.
+const VALUES_MAX: usize = 1 << 20;
+/// Scores that differ by no more are equal.
+const SCORE_TOLERANCE: f64 = 1e-12;
+
 /// The most values of a sample: the covariance has their square, and is taken apart in each generation.
 pub const DIMENSIONS_MAX: usize = 1_000;
 
@@ -37,6 +48,12 @@ pub struct Cma {
     path: Vec<f64>,
     /// Updates since it began, or began again.
     updates: u32,
+    /// How often it began again with twice as many samples as before.
+    doublings: u32,
+    /// The samples of an update that still needs more.
+    waiting: Vec<(Vec<f64>, Fitness)>,
+    /// The best scores of the last updates.
+    bests: Vec<Fitness>,
 }
 
 impl Cma {
@@ -51,6 +68,9 @@ impl Cma {
             sigma_path: vec![0.0; n],
             path: vec![0.0; n],
             updates: 0,
+            doublings: 0,
+            waiting: Vec::new(),
+            bests: Vec::new(),
         }
     }
 
@@ -59,12 +79,19 @@ impl Cma {
         let n = self.mean.len();
         let lengths = self.sigma_path.len() == n && self.path.len() == n;
         let within = |values: &[f64]| values.iter().all(|value| value.abs() <= COVARIANCE_MAX);
+        let is_sample = |(values, _): &(Vec<f64>, Fitness)| {
+            values.len() == n && values.iter().all(|value| (0.0..=1.0).contains(value))
+        };
         n > 0
             && lengths
             && Some(self.covariance.len()) == n.checked_mul(n)
             && self.sigma > 0.0
             && self.sigma <= SIGMA_MAX
             && self.mean.iter().all(|value| (0.0..=1.0).contains(value))
+            && self.doublings <= DOUBLINGS_MAX
+            && self.waiting.len().saturating_mul(n) <= VALUES_MAX
+            && self.waiting.iter().all(is_sample)
+            && self.bests.len() <= history(n, 1)
             && [&self.covariance, &self.sigma_path, &self.path].into_iter().all(|it| within(it))
     }
 
@@ -83,17 +110,47 @@ impl Cma {
         Sampler { mean: self.mean.clone(), axes: directions }
     }
 
-    /// Learns from samples and what they were worth. If there is nothing to be learned any more, because the
-    /// distribution has shrunk to a point, has lost its shape, or all samples are worth the same, it begins again
-    /// about a random place.
+    /// Learns from the samples of a generation and what they were worth. If there is nothing to be learned any more,
+    /// because the distribution has shrunk to a point, has lost its shape, or finds nothing better, it begins again about
+    /// a random place, with twice as many samples.
     pub fn learn(&mut self, samples: &[(Vec<f64>, Fitness)], rng: &mut Stream) {
-        let Some(&(_, first)) = samples.first() else { return };
         // Seeds of another length would have another number of values.
         let is_alike = |(values, _): &(Vec<f64>, Fitness)| values.len() == self.dimensions();
-        let is_flat = samples.iter().all(|(_, fitness)| *fitness == first);
-        if is_flat || !samples.iter().all(is_alike) || !self.update(samples) {
-            *self = Self::about((0..self.dimensions()).map(|_| rng.random()).collect());
+        if samples.is_empty() || !samples.iter().all(is_alike) {
+            return;
         }
+        self.waiting.extend_from_slice(samples);
+        if self.waiting.len() < samples.len() << self.doublings {
+            return;
+        }
+        let all = std::mem::take(&mut self.waiting);
+        if self.is_flat(&all) || !self.update(&all) {
+            self.begin_again(samples.len(), rng);
+        }
+    }
+
+    fn begin_again(&mut self, samples: usize, rng: &mut Stream) {
+        let more = self.doublings + 1;
+        let values = (samples << more).saturating_mul(self.dimensions());
+        let doublings =
+            if more <= DOUBLINGS_MAX && values <= VALUES_MAX { more } else { self.doublings };
+        let mean = (0..self.dimensions()).map(|_| rng.random()).collect();
+        *self = Self { doublings, ..Self::about(mean) };
+    }
+
+    /// Whether neither these samples nor the best ones of the last updates differ in their scores (TolFun and its
+    /// history).
+    fn is_flat(&mut self, samples: &[(Vec<f64>, Fitness)]) -> bool {
+        let scores = || samples.iter().map(|(_, fitness)| *fitness);
+        let is_equal =
+            |a: Fitness, b: Fitness| a == b || (a.get() - b.get()).abs() < SCORE_TOLERANCE;
+        let (Some(best), Some(worst)) = (scores().max(), scores().min()) else { return true };
+        self.bests.push(best);
+        let enough = history(self.dimensions(), samples.len());
+        self.bests.drain(..self.bests.len().saturating_sub(enough));
+        let bests = || self.bests.iter().copied();
+        let (Some(most), Some(least)) = (bests().max(), bests().min()) else { return true };
+        is_equal(best, worst) || (self.bests.len() == enough && is_equal(most, least))
     }
 
     /// One update (equations 38 to 47 of the tutorial, without negative weights); whether the distribution is of use
@@ -175,6 +232,11 @@ impl Sampler {
     }
 }
 
+/// So many updates without anything better are the last: 10 + 30n/λ.
+fn history(dimensions: usize, samples: usize) -> usize {
+    10 + (30 * dimensions).div_ceil(samples.max(1))
+}
+
 struct Axes {
     directions: DMatrix<f64>,
     lengths: DVector<f64>,
@@ -223,73 +285,4 @@ impl Rates {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::rng::{Purpose, Source};
-
-    fn stream(generation: u32, index: u32) -> Stream {
-        Source { seed: 2, island: 0 }.stream(generation, index, Purpose::Sampling)
-    }
-
-    /// The least of `error` after so many generations of 20 samples.
-    fn least(dimensions: usize, generations: u32, error: impl Fn(&[f64]) -> f64) -> f64 {
-        let mut cma = Cma::about(vec![0.3; dimensions]);
-        let mut least = f64::INFINITY;
-        for generation in 0..generations {
-            let sampler = cma.sampler();
-            let samples: Vec<_> = (0..20)
-                .map(|index| {
-                    let values = sampler.draw(&mut stream(generation, index));
-                    least = least.min(error(&values));
-                    let fitness = Fitness::new(-error(&values));
-                    (values, fitness)
-                })
-                .collect();
-            cma.learn(&samples, &mut stream(generation, u32::MAX));
-            assert!(cma.is_sound());
-        }
-        least
-    }
-
-    #[test]
-    fn it_finds_the_bottom_of_a_bowl_and_of_a_long_turned_valley() {
-        let sphere = |x: &[f64]| x.iter().map(|x| (x - 0.6) * (x - 0.6)).sum();
-        assert!(least(10, 150, sphere) < 1e-9);
-        // An ellipsoid with axes as 1 to 1000, along the diagonals of each pair of values.
-        let valley = |x: &[f64]| {
-            let pair = |pair: &[f64]| {
-                let [sum, difference] = [pair[0] + pair[1] - 1.1, pair[0] - pair[1] + 0.1];
-                sum * sum + 1e6 * difference * difference
-            };
-            x.chunks_exact(2).map(pair).sum()
-        };
-        assert!(least(6, 400, valley) < 1e-9);
-    }
-
-    #[test]
-    fn it_begins_again_where_all_is_worth_the_same() {
-        let mut cma = Cma::about(vec![0.5; 3]);
-        let flat: Vec<_> = (0..4).map(|i| (vec![f64::from(i) / 4.0; 3], Fitness::WORST)).collect();
-        cma.learn(&flat, &mut stream(0, 0));
-        let fresh = Cma { mean: cma.mean.clone(), ..Cma::about(vec![0.0; 3]) };
-        assert_eq!(cma, fresh);
-        assert_ne!(cma.mean, [0.5; 3]);
-    }
-
-    #[test]
-    fn a_state_that_cannot_be_is_not_sound() {
-        let sound = Cma::about(vec![0.5; 3]);
-        assert!(sound.is_sound());
-        let broken: [fn(&mut Cma); 4] = [
-            |cma| cma.mean.clear(),
-            |cma| cma.covariance.truncate(8),
-            |cma| cma.path.push(0.0),
-            |cma| cma.sigma = f64::NAN,
-        ];
-        for (number, break_it) in broken.into_iter().enumerate() {
-            let mut cma = sound.clone();
-            break_it(&mut cma);
-            assert!(!cma.is_sound(), "{number}");
-        }
-    }
-}
+mod tests;

@@ -8,7 +8,7 @@ use super::memory::Memory;
 use super::population::{Population, ranking};
 use super::problem::{Gene, Problem};
 use super::strategy::{Reproduction, Strategy};
-use super::survival::{Survival, niching};
+use super::survival::{Survival, crowding, niching};
 use super::variation::happens;
 use super::variation::sequences::Layout;
 use crate::rng::{Purpose, Source};
@@ -164,12 +164,13 @@ pub fn select<P: Problem>(
     moment: Moment,
     offspring: usize,
 ) -> Vec<[usize; 2]> {
+    let Moment { source, generation } = moment;
+    let stream = |index| source.stream(generation, index as u32, Purpose::Selection);
     let fitness: Vec<Fitness> = match strategy.survival {
+        Survival::Crowding => return crowding::couples(population.len(), &mut stream(0)),
         Survival::Sharing { radius } => niching::shared(problem, population, radius),
         _ => population.iter().map(|i| i.fitness).collect(),
     };
-    let Moment { source, generation } = moment;
-    let stream = |index| source.stream(generation, index as u32, Purpose::Selection);
     strategy.parenthood().prepare(&fitness).couples(offspring, stream)
 }
 

@@ -40,7 +40,7 @@ impl Hurdles {
         fitness.sort_unstable();
         let or_none = |hurdle: Option<&Fitness>| hurdle.copied().unwrap_or(Fitness::WORST);
         let looks = match strategy.survival {
-            Survival::Generational => std::array::from_fn(|look| {
+            Survival::Generational | Survival::Drifting => std::array::from_fn(|look| {
                 or_none(fitness.get(fitness.len() * (look + 1) / (LOOKS + 1)))
             }),
             _ => [Fitness::WORST; LOOKS],

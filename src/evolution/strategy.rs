@@ -114,10 +114,10 @@ impl Strategy {
         self.population - if self.survival.is_steady() { 0 } else { self.elites }
     }
 
-    /// How parents are picked: from a map uniformly, as MAP-Elites has it.
+    /// How parents are picked: uniformly where a scheme of survival has it so, since it is that which selects.
     pub fn parenthood(&self) -> Selection {
         match self.survival {
-            Survival::MapElites { .. } => Selection::Tournament { size: 1 },
+            Survival::MapElites { .. } | Survival::Afpo => Selection::Tournament { size: 1 },
             _ => self.selection,
         }
     }

@@ -22,7 +22,17 @@ pub fn write(
     drop(writer);
     file.as_file().sync_all().map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
-    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).map_err(failed)
+    sync_name(path)
+}
+
+/// Makes it durable that a file or a folder has its name. What was written to a file is of no use after a loss of power
+/// if the file has none.
+///
+/// # Errors
+/// If the file system refuses.
+pub fn sync_name(path: &Path) -> Result<(), StoreError> {
+    let folder = File::open(folder_of(path));
+    folder.and_then(|folder| folder.sync_all()).map_err(StoreError::io("make durable", path))
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -4,7 +4,7 @@
 //! appends leaves a torn tail, which readers leave out and the next writer overwrites. What is cut back and
 //! written again the same way has the same bytes in the same places, so that a reader need not know of it.
 
-use super::{BYTES_MAX, StoreError, checksum, decode, encode, file};
+use super::{BYTES_MAX, StoreError, atomic, checksum, decode, encode, file};
 use serde::{Serialize, de::DeserializeOwned};
 use std::fs::File;
 use std::io::ErrorKind;
@@ -33,7 +33,11 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
     /// # Errors
     /// If the file cannot be opened, locked or read, or is no regular file.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
+        let is_new = !path.exists();
         let file = file::open_to_write(path)?;
+        if is_new {
+            atomic::sync_name(path)?;
+        }
         file.lock().map_err(StoreError::io("lock", path))?;
         let ends = scan(&file, |_| ()).map_err(StoreError::io("read", path))?.ends;
         let mut log = Self { path: path.to_owned(), file, ends, records: PhantomData };

@@ -51,7 +51,7 @@ impl RunDir {
     /// # Errors
     /// If it cannot be made, has something in it or is another launcher's.
     pub fn create(&self) -> Result<Claim, StoreError> {
-        private().create(&self.0).map_err(StoreError::io("make the folder", &self.0))?;
+        make_durably(&self.0)?;
         let folder = self.lock()?;
         let mut entries = std::fs::read_dir(&self.0).map_err(StoreError::io("read", &self.0))?;
         let (partial, copies) = (self.partial(), [self.seed_genomes(), self.terrain()]);
@@ -273,7 +273,7 @@ fn private() -> DirBuilder {
 
 /// Makes a folder of a run; it may exist, but not as a link.
 pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
-    private().create(folder).map_err(StoreError::io("make the folder", folder))?;
+    make_durably(folder)?;
     if is_link(folder) {
         return Err(StoreError::damaged(
             folder,
@@ -281,6 +281,14 @@ pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
         ));
     }
     Ok(())
+}
+
+/// Makes a folder and those that it lies in, and makes the names of all that are new durable.
+fn make_durably(folder: &Path) -> Result<(), StoreError> {
+    let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
+    private().create(folder).map_err(StoreError::io("make the folder", folder))?;
+    missing.into_iter().rev().try_for_each(atomic::sync_name)
 }
 
 fn is_link(path: &Path) -> bool {

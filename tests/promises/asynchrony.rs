@@ -1,13 +1,16 @@
 //! Islands that do not wait for each other: what arrived is recorded, and leads to the same bits again.
 
 use crate::support::{World, await_generation, is_alive, signal, try_signal, until};
+use islands::app::catalogue::Visitor;
 use islands::app::config::Config;
+use islands::app::subject::Subject;
 use islands::archipelago::arrivals::check_record;
 use islands::archipelago::{Arrivals, Digest, lockstep};
 use islands::rng::Stream;
 use islands::store::{RecordLog, RunDir};
 use rand::{RngExt, SeedableRng};
 use std::fs;
+use std::path::Path;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -50,11 +53,39 @@ fn verified(world: &World) -> String {
 
 /// What such records of the run lead to, in this process.
 fn replayed(world: &World, records: &[Vec<Arrivals>]) -> String {
-    let config = Config::read(&dir(world).config()).unwrap();
-    let (problem, archipelago) = (config.locomotion(), config.archipelago());
-    let islands =
-        lockstep::replay(&problem, &archipelago, config.generations, records, |_| ()).unwrap();
-    Digest::of(&islands).to_string()
+    replay(&dir(world), records)
+}
+
+fn replay(dir: &RunDir, records: &[Vec<Arrivals>]) -> String {
+    let config = Config::read(&dir.config()).unwrap();
+    config.visit(Replay(&config, records))
+}
+
+struct Replay<'a>(&'a Config, &'a [Vec<Arrivals>]);
+
+impl Visitor for Replay<'_> {
+    type Output = String;
+
+    fn visit<P: Subject>(self, problem: P) -> String {
+        let Self(config, records) = self;
+        let (archipelago, generations) = (config.archipelago(), config.generations);
+        let islands = lockstep::replay(&problem, &archipelago, generations, records, |_| ());
+        Digest::of(&islands.unwrap()).to_string()
+    }
+}
+
+/// A run of `--problem trap --dimensions 30 --n 3 --exchange async` that was recorded once.
+#[test]
+fn a_record_of_old_leads_to_the_digest_that_it_led_to() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/async");
+    let dir = RunDir::at(&folder);
+    let records: Vec<_> = (0..3).map(|island| record(&dir, island)).collect();
+    assert!(records.iter().flatten().any(|arrivals| !arrivals.taken.is_empty()));
+    let digest = fs::read_to_string(folder.join("digest")).unwrap();
+    assert_eq!(replay(&dir, &records), digest.trim_end());
+    let mut without = records;
+    without.iter_mut().flatten().for_each(|arrivals| arrivals.taken.clear());
+    assert_ne!(replay(&dir, &without), digest.trim_end(), "who came makes a difference");
 }
 
 #[test]

@@ -58,7 +58,12 @@ impl Config {
         let alone: Self = said.clone().try_into()?;
         let dimensions = said.contains_key("dimensions").then_some(alone.dimensions);
         let problem = wish.problem.unwrap_or(alone.problem);
-        let wish = Wish { problem: Some(problem), dimensions: wish.dimensions.or(dimensions) };
+        let survival = said.contains_key("survival").then_some(alone.survival);
+        let wish = Wish {
+            problem: Some(problem),
+            dimensions: wish.dimensions.or(dimensions),
+            survival: wish.survival.or(survival),
+        };
         let usual = Table::try_from(Self::default_for(wish));
         let mut all = usual.expect("a configuration is plain data within TOML's ranges");
         all.extend(said);

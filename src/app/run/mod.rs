@@ -15,7 +15,7 @@ mod run_log;
 mod supervisor;
 
 use super::Failure;
-use super::catalogue::{Kind, Visitor};
+use super::catalogue::{Kind, Visitor, Wish};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
 use super::config::{self, Config};
 use super::console::{print, quoted, say};
@@ -203,7 +203,7 @@ fn keep_private() {
 
 /// What was asked for: flags over a file over the defaults of the problem, with a seed.
 fn resolve(args: &RunArgs) -> Result<Config, Failure> {
-    let wish = args.settings.problem.wish();
+    let wish = Wish { survival: args.settings.survival, ..args.settings.problem.wish() };
     let mut config = match &args.config {
         Some(path) => args.settings.over(Config::read_for(path, wish)?),
         None => args.settings.over(Config::default_for(wish)),

@@ -7,6 +7,7 @@ use super::super::settings::SettingArgs;
 use crate::archipelago::ExchangeMode;
 use crate::evolution::Gene;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
+use std::io::ErrorKind;
 use std::thread::sleep;
 use std::time::Duration;
 
@@ -95,16 +96,20 @@ pub fn command(dir: &RunDir) -> String {
 /// write on into what nobody will ever read.
 ///
 /// # Errors
-/// If it was moved or removed.
+/// If it was moved or removed, or cannot be reached: then it says why.
 pub fn require_folder(dir: &RunDir) -> Result<(), Failure> {
-    if dir.config().exists() {
-        return Ok(());
+    let folder = dir.path().display();
+    match dir.config().metadata() {
+        Ok(_) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::NotFound => Err(Failure::failed(format!(
+            "the run's folder {folder} is gone: somebody has moved or removed it while the run was under way; what was \
+             moved can go on with islands resume"
+        ))),
+        Err(error) => Err(Failure::failed(format!(
+            "the run's folder {folder} cannot be reached: {error}; when it can, the run goes on with: {}",
+            command(dir)
+        ))),
     }
-    Err(Failure::failed(format!(
-        "the run's folder {} is gone: somebody has moved or removed it while the run was under way; what was moved \
-         can go on with islands resume",
-        dir.path().display()
-    )))
 }
 
 fn require_version(version: &str) -> Result<(), Failure> {
@@ -204,5 +209,16 @@ mod tests {
         assert_eq!(found, ["population is 24, not 30", "seed is 7, not 8"]);
         assert!(differences(&was.settings(), &was.settings()).is_empty());
         assert_eq!(differences("=", ""), ["they cannot be read"]);
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_reached_is_not_called_gone() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let said =
+            |path| require_folder(&RunDir::at(folder.path().join(path))).unwrap_err().message;
+        assert!(said("nowhere").contains(" is gone: somebody has moved or removed it"));
+        std::fs::write(folder.path().join("file"), "").expect("it can be written");
+        let unreachable = said("file/run");
+        assert!(unreachable.contains(" cannot be reached: Not a directory"), "{unreachable}");
     }
 }

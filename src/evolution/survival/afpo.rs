@@ -1,29 +1,67 @@
 //! Age-fitness Pareto optimisation (Schmidt & Lipson 2010): the young compete with the young, so that what is new has
-//! time to become good.
+//! time to become good. Parents are picked at random, and a random newcomer comes with each generation.
 
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
+use crate::rng::Stream;
+use rand::RngExt;
 use std::cmp::Reverse;
 
-/// The best of the old population and its offspring, as many as the old one has: first those that nobody is both
-/// better and younger than, then those that nobody else is, and so on; in each such front the fittest first. Age is
-/// counted from the birth of the oldest ancestor; of two that are equal in both, the one that was there first counts as
-/// the better one.
-pub fn pareto<G: Clone>(old: &[Individual<G>], brood: Population<G>) -> Population<G> {
-    let mut all: Vec<Individual<G>> = old.iter().cloned().chain(brood).collect();
-    all.sort_by_key(|one| (Reverse(one.fitness), Reverse(one.origin)));
-    // The youngest of each front so far: whoever comes later is no fitter, and has to be younger to be in it.
-    let mut youngest: Vec<u32> = Vec::new();
-    let mut ranked: Vec<(usize, Individual<G>)> = Vec::with_capacity(all.len());
-    for one in all {
-        let front = youngest.iter().position(|&origin| one.origin > origin);
-        let front = front.unwrap_or(youngest.len());
-        match youngest.get_mut(front) {
-            Some(origin) => *origin = one.origin,
-            None => youngest.push(one.origin),
-        }
-        ranked.push((front, one));
+/// As many of the old population and its offspring as the old one has. Age is counted from the birth of the oldest
+/// ancestor.
+///
+/// Pareto tournaments decide: of two drawn at random, one that the other is better and younger than dies, until as many
+/// are left as there may be. Of two that are equal in age or fitness the other one decides; of two that are equal in both,
+/// who was there first counts as the better one. In the paper a population may grow beyond its size while nobody is
+/// worse than anybody; here the least fit of them die then.
+pub fn pareto<G: Clone>(
+    old: &[Individual<G>],
+    brood: Population<G>,
+    rng: &mut Stream,
+) -> Population<G> {
+    let mut living: Vec<Individual<G>> = old.iter().cloned().chain(brood).collect();
+    let front = front(&living);
+    if front.len() >= old.len() {
+        return front.into_iter().take(old.len()).map(|index| living[index].clone()).collect();
     }
-    ranked.sort_by_key(|(front, _)| *front);
-    ranked.into_iter().map(|(_, one)| one).take(old.len()).collect()
+    while living.len() > old.len() {
+        let mut draw = || rng.random_range(0..living.len());
+        let (one, other) = (draw(), draw());
+        let (first, second) = (one.min(other), one.max(other));
+        if first == second {
+            continue;
+        }
+        if dominates(&living[first], &living[second]) {
+            living.remove(second);
+        } else if is_beaten(&living[first], &living[second]) {
+            living.remove(first);
+        }
+    }
+    living
+}
+
+/// Whether one that was there first is no worse and no older than another.
+fn dominates<G>(first: &Individual<G>, second: &Individual<G>) -> bool {
+    first.fitness >= second.fitness && first.origin >= second.origin
+}
+
+/// Whether one is beaten by another that came later: it is no better and no younger, and not its equal.
+fn is_beaten<G>(first: &Individual<G>, second: &Individual<G>) -> bool {
+    dominates(second, first) && !dominates(first, second)
+}
+
+/// The indices of those that nobody dominates, the fittest first.
+fn front<G>(all: &[Individual<G>]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by_key(|&index| (Reverse(all[index].fitness), Reverse(all[index].origin)));
+    // Whoever comes later is no fitter, and has to be younger.
+    let mut youngest = None;
+    order.retain(|&index| {
+        let is_younger = youngest.is_none_or(|youngest| all[index].origin > youngest);
+        if is_younger {
+            youngest = Some(all[index].origin);
+        }
+        is_younger
+    });
+    order
 }

@@ -9,6 +9,7 @@ use super::individual::Individual;
 use super::population::{Population, ranking};
 use super::problem::Problem;
 use crate::choice;
+use crate::rng::Stream;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -19,7 +20,10 @@ use std::str::FromStr;
 pub enum Survival {
     /// [`elitist`]: the offspring replace all but the elites.
     Generational,
-    /// The same, but parents are picked by their [`niching::shared`] fitness.
+    /// The same, but of equally good ones the youngest counts as the best: what changes nothing stays, so that search
+    /// drifts over what is flat (Kimura 1968; plateaus of a (1 + λ): Jansen & Wegener 2001).
+    Drifting,
+    /// As generational, but parents are picked by their [`niching::shared`] fitness.
     Sharing {
         /// The distance from which on two individuals share nothing, above 0, at most 1.
         radius: f64,
@@ -39,6 +43,7 @@ impl fmt::Display for Survival {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Survival::Generational => write!(f, "generational"),
+            Survival::Drifting => write!(f, "drifting"),
             Survival::Sharing { radius } => write!(f, "sharing:{radius}"),
             Survival::Crowding => write!(f, "crowding"),
             Survival::Afpo => write!(f, "afpo"),
@@ -55,14 +60,17 @@ impl FromStr for Survival {
         let scheme = choice::Scheme::of(text);
         match scheme.name {
             "generational" => scheme.plain(Survival::Generational),
+            "drifting" => scheme.plain(Survival::Drifting),
             "sharing" => Ok(Survival::Sharing { radius: scheme.number(0.1, 1e-6, 1.0)? }),
             "crowding" => scheme.plain(Survival::Crowding),
             "afpo" => scheme.plain(Survival::Afpo),
             "map-elites" => {
                 Ok(Survival::MapElites { bins: scheme.whole(8, 2, map_elites::BINS_MAX)? })
             }
-            _ => Err(scheme
-                .unknown("survival", "generational, sharing:0.1, crowding, afpo or map-elites:8")),
+            _ => Err(scheme.unknown(
+                "survival",
+                "generational, drifting, sharing:0.1, crowding, afpo or map-elites:8",
+            )),
         }
     }
 }
@@ -70,18 +78,21 @@ impl FromStr for Survival {
 choice::as_text!(Survival);
 
 impl Survival {
-    /// The next population: `old` is the one whose offspring `brood` is.
+    /// The next population: `old` is the one whose offspring `brood` is. The stream is drawn from by those that leave it
+    /// to chance who dies.
     pub fn survivors<P: Problem>(
         self,
         problem: &P,
         old: &[Individual<P::Gene>],
         brood: Population<P::Gene>,
         elites: usize,
+        rng: &mut Stream,
     ) -> Population<P::Gene> {
         match self {
             Survival::Generational | Survival::Sharing { .. } => elitist(old, brood, elites),
+            Survival::Drifting => brood.into_iter().chain(elite(old, elites)).collect(),
             Survival::Crowding => crowding::crowd(problem, old, brood),
-            Survival::Afpo => afpo::pareto(old, brood),
+            Survival::Afpo => afpo::pareto(old, brood, rng),
             Survival::MapElites { bins } => {
                 map_elites::fill(problem, bins, old.iter().cloned().chain(brood))
             }
@@ -90,7 +101,7 @@ impl Survival {
 
     /// Whether the old population lives on as far as the new one is no better, so that there are no elites.
     pub fn is_steady(self) -> bool {
-        !matches!(self, Survival::Generational | Survival::Sharing { .. })
+        matches!(self, Survival::Crowding | Survival::Afpo | Survival::MapElites { .. })
     }
 }
 
@@ -101,8 +112,15 @@ pub fn elitist<G: Clone>(
     offspring: Population<G>,
     elites: usize,
 ) -> Population<G> {
-    let survivors = ranking(old).into_iter().take(elites).map(|i| old[i].clone());
-    survivors.chain(offspring).collect()
+    elite(old, elites).chain(offspring).collect()
+}
+
+/// The best of a population; of equal ones the first.
+fn elite<G: Clone>(
+    population: &[Individual<G>],
+    elites: usize,
+) -> impl Iterator<Item = Individual<G>> {
+    ranking(population).into_iter().take(elites).map(|index| population[index].clone())
 }
 
 #[cfg(test)]

@@ -1,9 +1,13 @@
 //! Who lives on under which scheme.
 
 use super::*;
-use crate::evolution::{Evaluation, Fitness, Gene, Id};
-use crate::rng::Stream;
+use crate::evolution::generation::{Moment, select};
+use crate::evolution::{Evaluation, Fitness, Gene, Id, Strategy};
+use crate::rng::{Purpose, Source};
 use bytemuck::{Pod, Zeroable};
+use rand::RngExt;
+
+const SOURCE: Source = Source { seed: 8, island: 0 };
 
 /// A genome is one number from 0 to 1; it is its own feature, and worth nothing in particular.
 struct Line;
@@ -62,6 +66,10 @@ fn child(index: u32, parents: [u32; 2], place: f64, score: f64) -> Individual<Pl
     Individual { parents: parents.map(|parent| Some(id(parent))), ..one(index, place, score) }
 }
 
+fn stream(seed: u64) -> Stream {
+    Source { seed, island: 0 }.stream(1, 0, Purpose::Survival)
+}
+
 fn indices(population: &[Individual<Place>]) -> Vec<u32> {
     population.iter().map(|one| one.id.index).collect()
 }
@@ -74,32 +82,126 @@ fn elites_live_on_before_their_offspring() {
 }
 
 #[test]
+fn who_drifts_takes_the_youngest_of_equals_for_the_best() {
+    let old = [one(0, 0.0, 1.0), one(1, 0.0, 3.0), one(2, 0.0, 2.0)];
+    let brood = vec![one(3, 0.0, 3.0), one(4, 0.0, 0.0)];
+    let next = Survival::Drifting.survivors(&Line, &old, brood, 1, &mut stream(0));
+    assert_eq!(indices(&next), [3, 4, 1]);
+    assert_eq!(ranking(&next)[0], 0);
+}
+
+#[test]
+fn in_a_crowd_everybody_is_a_parent_twice_whatever_its_fitness() {
+    for individuals in [2, 3, 8, 9] {
+        let couples = crowding::couples(individuals, &mut stream(individuals as u64));
+        assert_eq!(couples.len(), individuals);
+        let mut mothers: Vec<usize> = couples.iter().map(|couple| couple[0]).collect();
+        let mut fathers: Vec<usize> = couples.iter().map(|couple| couple[1]).collect();
+        mothers.sort_unstable();
+        fathers.sort_unstable();
+        assert!(mothers.iter().copied().eq(0..individuals) && mothers == fathers);
+        for pair in couples.chunks_exact(2) {
+            assert_eq!(pair[0], [pair[1][1], pair[1][0]]);
+        }
+    }
+}
+
+#[test]
 fn in_a_crowd_a_child_replaces_the_parent_that_it_is_like_if_it_is_better() {
     let old = [one(0, 0.1, 1.0), one(1, 0.9, 5.0)];
-    let crowd = |brood| indices(&crowding::crowd(&Line, &old, brood));
-    assert_eq!(crowd(vec![child(2, [0, 1], 0.2, 2.0)]), [2, 1]);
-    assert_eq!(crowd(vec![child(2, [0, 1], 0.8, 2.0)]), [0, 1], "it is worse than that parent");
-    assert_eq!(crowd(vec![child(2, [0, 1], 0.8, 6.0)]), [0, 2]);
-    let twins = vec![child(2, [0, 0], 0.2, 3.0), child(3, [0, 0], 0.2, 2.0)];
-    assert_eq!(crowd(twins), [2, 1], "the place was taken by a better one");
+    let crowd =
+        |brood: [Individual<Place>; 2]| indices(&crowding::crowd(&Line, &old, brood.to_vec()));
+    let [near, far] = [0.2, 0.8];
+    assert_eq!(crowd([child(2, [0, 1], near, 2.0), child(3, [1, 0], far, 2.0)]), [2, 1]);
+    assert_eq!(crowd([child(2, [0, 1], near, 0.5), child(3, [1, 0], far, 6.0)]), [0, 3]);
+    assert_eq!(
+        crowd([child(2, [0, 1], far, 6.0), child(3, [1, 0], near, 2.0)]),
+        [3, 2],
+        "children face the parents that they are more like, both together"
+    );
+    let alone = crowding::crowd(&Line, &old, vec![child(2, [1, 1], near, 6.0)]);
+    assert_eq!(indices(&alone), [0, 2]);
+}
+
+/// Two hills, the second one higher: crowding keeps both, where selection by fitness keeps one.
+#[test]
+fn niches_persist_in_a_crowd() {
+    let hill = |place: f64| 1.0 - 10.0 * (place - 0.2).abs().min((place - 0.8).abs() - 0.02);
+    let climb = |survival: Survival| {
+        let mut population: Vec<_> = (0..20)
+            .map(|index| f64::from(index) / 19.0)
+            .enumerate()
+            .map(|(index, place)| one(index as u32, place, hill(place)))
+            .collect();
+        for generation in 1..200_u32 {
+            let strategy = Strategy { survival, population: 20, ..Strategy::default() };
+            let moment = Moment { source: SOURCE, generation };
+            let couples = select(&Line, &population, &strategy, moment, strategy.brood());
+            let mut rng = SOURCE.stream(generation, 0, Purpose::Mutation);
+            let breed = |(index, couple): (usize, &[usize; 2])| {
+                let [mother, father] = couple.map(|parent| &population[parent]);
+                let middle = (mother.genome[0].0 + father.genome[0].0) / 2.0;
+                let place = middle + 0.02 * (rng.random::<f64>() - 0.5);
+                let id = Id { island: 0, generation, index: index as u32 };
+                let parents = [Some(mother.id), Some(father.id)];
+                Individual { id, parents, ..one(0, place, hill(place)) }
+            };
+            let brood = couples.iter().enumerate().map(breed).collect();
+            let mut fate = SOURCE.stream(generation, 0, Purpose::Survival);
+            population = survival.survivors(&Line, &population, brood, 2, &mut fate);
+        }
+        [0.2, 0.8]
+            .map(|top| population.iter().filter(|one| (one.genome[0].0 - top).abs() < 0.05).count())
+    };
+    let [low, high] = climb(Survival::Crowding);
+    assert!(low >= 4 && high >= 4 && low + high == 20, "{low} and {high}");
+    let [low, high] = climb(Survival::Generational);
+    assert!(low == 0 || high == 0, "{low} and {high}");
+}
+
+fn born(index: u32, origin: u32, score: f64) -> Individual<Place> {
+    Individual { origin, ..one(index, 0.0, score) }
 }
 
 #[test]
 fn the_young_survive_whom_nobody_as_young_can_beat() {
-    let born = |index, origin, score| Individual { origin, ..one(index, 0.0, score) };
     let old = [born(0, 0, 9.0), born(1, 0, 8.0), born(2, 3, 5.0)];
     let brood = vec![born(3, 3, 6.0), born(4, 7, 1.0), born(5, 7, 0.5)];
-    // Nobody is better and younger than 0, 3 and 4; among the rest nobody than 1, 2 and 5.
-    assert_eq!(indices(&afpo::pareto(&old, brood.clone())), [0, 3, 4]);
+    // Nobody is better and younger than 0, 3 and 4, and there is no room for more.
+    for seed in 0..20 {
+        let next = afpo::pareto(&old, brood.clone(), &mut stream(seed));
+        assert_eq!(indices(&next), [0, 3, 4]);
+    }
+    // With more room tournaments decide who of the others lives on.
     let more: Vec<_> = old.iter().cloned().chain([born(6, 0, 0.1), born(7, 0, 0.0)]).collect();
-    assert_eq!(indices(&afpo::pareto(&more, brood)), [0, 3, 4, 1, 2]);
+    let mut lucky = std::collections::BTreeSet::new();
+    for seed in 0..200 {
+        let next = indices(&afpo::pareto(&more, brood.clone(), &mut stream(seed)));
+        assert!(next.len() == 5 && [0, 3, 4].iter().all(|one| next.contains(one)), "{next:?}");
+        lucky.extend(next);
+    }
+    assert_eq!(lucky.len(), 8, "everybody has a chance: {lucky:?}");
 }
 
 #[test]
 fn of_clones_one_is_in_front() {
     let clones: Vec<_> = (0..3).map(|index| one(index, 0.0, 9.0)).collect();
     let other = Individual { origin: 1, ..one(3, 0.0, 1.0) };
-    assert_eq!(indices(&afpo::pareto(&clones, vec![other])), [0, 3, 1]);
+    for seed in 0..20 {
+        let next = indices(&afpo::pareto(&clones, vec![other.clone()], &mut stream(seed)));
+        assert!(next.contains(&0) && next.contains(&3), "{next:?}");
+    }
+}
+
+#[test]
+fn under_age_fitness_pareto_newcomers_breed_like_everybody_else() {
+    let mut population: Vec<_> = (0..9).map(|index| one(index, 0.0, 100.0)).collect();
+    population.push(Individual { origin: 5, ..one(9, 0.0, 0.0) });
+    let strategy = Strategy { survival: Survival::Afpo, ..Strategy::default() };
+    let moment = Moment { source: SOURCE, generation: 1 };
+    let couples = select(&Line, &population, &strategy, moment, 2_000);
+    let newcomer = couples.iter().flatten().filter(|&&parent| parent == 9).count();
+    assert!((330..470).contains(&newcomer), "{newcomer} of 4,000 parents, not a tenth");
 }
 
 #[test]
@@ -133,7 +235,7 @@ fn every_feature_has_a_cell() {
 
 #[test]
 fn a_scheme_is_read_as_it_is_written() {
-    for scheme in ["generational", "sharing:0.1", "crowding", "afpo", "map-elites:8"] {
+    for scheme in ["generational", "drifting", "sharing:0.1", "crowding", "afpo", "map-elites:8"] {
         assert_eq!(scheme.parse::<Survival>().unwrap().to_string(), scheme);
     }
     for wrong in ["", "steady", "afpo:1", "sharing:0", "map-elites:1", "map-elites:2.5"] {
