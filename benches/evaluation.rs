@@ -40,7 +40,7 @@ fn evaluation(criterion: &mut Criterion) {
         .measurement_time(Duration::from_secs(3));
     for links in LINKS {
         let genomes = genomes_of(&problem, links);
-        let steps = u64::from(problem.task.trial().steps()) * genomes.len() as u64;
+        let steps = u64::from(problem.trial().steps()) * genomes.len() as u64;
         group.throughput(Throughput::Elements(steps));
         for engine in Engine::ALL {
             let problem = Locomotion { engine, ..problem };

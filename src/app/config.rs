@@ -162,7 +162,7 @@ impl Default for Config {
             islands: 4,
             seed: None,
             algorithm: Algorithm::Ga,
-            generations: 80,
+            generations: 140,
             population: strategy.population,
             problem: Kind::Creatures,
             dimensions: 30,

@@ -64,7 +64,7 @@ impl Locomotion {
 
     /// How bodies are tried.
     pub fn trial(&self) -> Trial {
-        let trial = self.task.trial();
+        let trial = self.task.trial_in(self.engine);
         self.terrain.map_or(trial, |terrain| trial.on(terrain))
     }
 
@@ -273,7 +273,7 @@ mod tests {
             let problem = Locomotion { profile, task, genes, links_max: 7, ..problem() };
             let genome = problem.random_genome(&mut stream(index as u32));
             let links = problem.express(&genome).map_or(0, |it| it.morphology.links.len());
-            let steps = task.trial().steps() as usize;
+            let steps = task.trial_in(problem.engine).steps() as usize;
             assert_eq!(problem.cost(&genome), (links * steps) as u64);
         }
     }
@@ -284,7 +284,7 @@ mod tests {
         // Its link is built twice on the one before it.
         (gene.0[3], gene.0[6]) = (0.4, VALUE_MAX);
         let coursework = Locomotion { profile: Profile::Coursework, ..problem() };
-        let steps = u64::from(Task::Walk.trial().steps());
+        let steps = u64::from(coursework.trial().steps());
         assert_eq!([8, 10].map(|genes| coursework.cost(&vec![gene; genes])), [255 * steps, 0]);
         assert_eq!(problem().cost(&[]), 0);
     }

@@ -119,14 +119,16 @@ impl Locomotion {
         score: f64,
         hurdle: Fitness,
     ) -> Result<f64, Outcome> {
+        let other = Self { engine: self.engine.other(), ..*self };
+        let usual = Trial { steps_per_s: other.trial().steps_per_s, ..*usual };
         let trials = match self.robustness.trials {
-            0 => vec![*usual],
+            0 => vec![usual],
             _ => (0..JUDGE_TRIALS).map(|index| usual.perturbed(self.unscored() + index)).collect(),
         };
         let mut judged = score;
         let mut scores = Vec::new();
         for trial in trials {
-            scores.push(self.try_out(creature, &self.unpushed(trial), self.engine.other())?);
+            scores.push(self.try_out(creature, &self.unpushed(trial), other.engine)?);
             let found = self.robustness.by.of(&scores);
             judged = if found < CONFIRMED_SHARE * score { score.min(found) } else { score };
             if Fitness::new(judged) <= hurdle {
@@ -211,10 +213,10 @@ impl Locomotion {
         first: u32,
         trials: u32,
     ) -> Vec<Result<f64, Outcome>> {
-        let usual = self.trial();
+        let problem = Self { engine, ..*self };
+        let usual = problem.trial();
         let trial = |index| self.unpushed(usual.perturbed(first + index));
         let trials: Vec<Trial> = (0..trials).map(trial).collect();
-        let problem = Self { engine, ..*self };
         let groups: Vec<&[Trial]> =
             trials.chunks(simulation::at_a_time(engine, usual.ground)).collect();
         let tried = sharing::dearest_first(&vec![1; groups.len()], |group| {

@@ -29,7 +29,7 @@ fn robust(trials: u32, by: RobustBy, engine: Engine) -> Locomotion {
 fn one_by_one(trials: u32, genome: &[Gene], engine: Engine) -> Vec<Evaluation> {
     let creature = Locomotion::DEFAULT.express(genome).unwrap();
     let evaluation = |index| {
-        let trial = Task::Walk.trial().perturbed(index);
+        let trial = Task::Walk.trial_in(engine).perturbed(index);
         let score = |measured| Evaluation::scored(Task::Walk.score(&measured));
         simulation::simulate(&creature, &trial, engine).map_or_else(Evaluation::failed, score)
     };
@@ -91,7 +91,7 @@ fn sling() -> Creature {
 fn whoever_fails_in_one_perturbed_trial_has_failed() {
     for engine in Engine::ALL {
         let tried = |index| {
-            let trial = Task::Walk.trial().perturbed(index);
+            let trial = Task::Walk.trial_in(engine).perturbed(index);
             simulation::simulate(&sling(), &trial, engine).err()
         };
         let found: Vec<Option<Outcome>> = (0..4).map(tried).collect();
@@ -115,7 +115,7 @@ fn a_film_has_the_score_of_all_trials_and_shows_the_one_that_is_nearest_to_it() 
         let scores = one_by_one(12, &genome, engine);
         let worst = scores.iter().position(|score| *score == evaluation).unwrap() as u32;
         let creature = problem.express(&genome).unwrap();
-        let trial = Task::Walk.trial().perturbed(worst);
+        let trial = Task::Walk.trial_in(engine).perturbed(worst);
         assert!(film == simulation::film(&creature, &trial, engine).1, "{engine}");
     }
 }
@@ -130,7 +130,7 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
             let score = |problem: Locomotion| problem.evaluate(&genome).fitness;
             let creature = own.express(&genome).unwrap();
             let others = [16, 17, 18, 19].map(|index| {
-                let trial = Task::Walk.trial().perturbed(index);
+                let trial = Task::Walk.trial_in(engine.other()).perturbed(index);
                 let measured = simulation::simulate(&creature, &trial, engine.other()).unwrap();
                 Task::Walk.score(&measured)
             });
@@ -155,7 +155,7 @@ fn means(genome: &[Gene]) -> (Vec<Fitness>, Vec<Fitness>) {
     let scores: Vec<f64> = scores.iter().map(|one| one.fitness.get()).collect();
     let creature = Locomotion::DEFAULT.express(genome).unwrap();
     let judged = [20, 21, 22, 23].map(|index| {
-        let trial = Task::Walk.trial().perturbed(index);
+        let trial = Task::Walk.trial_in(Engine::Rapier).perturbed(index);
         Task::Walk.score(&simulation::simulate(&creature, &trial, Engine::Rapier).unwrap())
     });
     (prefixes(&scores), prefixes(&judged))
@@ -218,7 +218,7 @@ fn fresh_trials_are_perturbed_otherwise_than_those_that_are_selected_on() {
 fn a_robust_evaluation_costs_all_of_its_trials() {
     let genome = genome(3, 0);
     let links = Locomotion::DEFAULT.express(&genome).unwrap().morphology.links.len() as u64;
-    let trials = (0..5).map(|index| Task::Walk.trial().perturbed(index));
+    let trials = (0..5).map(|index| Task::Walk.trial_in(Engine::Rapier).perturbed(index));
     let steps: u64 = trials.map(|trial| u64::from(trial.steps())).sum();
     let problem = robust(5, RobustBy::Worst, Engine::Rapier);
     assert_eq!(problem.cost(&genome), links * steps);
@@ -240,7 +240,7 @@ fn a_ball_gains_nothing_by_being_pushed() {
     let body = ball();
     for engine in Engine::ALL {
         let moved_m = |index| {
-            let trial = Task::Walk.trial().perturbed(index);
+            let trial = Task::Walk.trial_in(engine).perturbed(index);
             let measured = simulation::simulate(&body, &trial, engine).unwrap();
             (measured.centre_last_m - measured.centre_first_m).xy().norm()
         };
