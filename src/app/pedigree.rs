@@ -2,7 +2,7 @@
 
 use super::config::Config;
 use super::subject::Subject;
-use crate::archipelago::{Birth, Champion, Lineage};
+use crate::archipelago::{Birth, Champion, Descent};
 use crate::evolution::Id;
 use crate::view::Family;
 use crate::view::family::{Generation, Member};
@@ -40,7 +40,7 @@ impl<P: Subject> Herald<P> {
     }
 
     /// The family of somebody; empty if nothing is known of its birth.
-    pub fn family(&self, lineage: &Lineage, id: Id) -> Family {
+    pub fn family(&self, lineage: &impl Descent, id: Id) -> Family {
         let whole = lineage.line(id);
         let place = |id: Id| whole.iter().position(|&other| other == id).unwrap_or(0);
         let member = |id: Id| {
@@ -105,7 +105,7 @@ fn way(between: usize, moved: Option<(u32, u32)>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::archipelago::Births;
+    use crate::archipelago::{Births, Lineage};
     use crate::evolution::Fitness;
 
     #[test]

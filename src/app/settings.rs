@@ -22,7 +22,7 @@ pub struct SettingArgs {
     /// [default: ga]
     #[arg(long)]
     pub algorithm: Option<Algorithm>,
-    /// Generations after the random first one [default: 80]
+    /// Generations after the random first one [default: 140]
     #[arg(long, value_name = "G")]
     pub generations: Option<u32>,
     /// Individuals on each island [default: 24]

@@ -39,6 +39,42 @@ impl Births {
     }
 }
 
+/// What knows who was born of whom.
+pub trait Descent {
+    /// What is on record of an individual's birth.
+    fn recorded(&self, id: Id) -> Option<Birth>;
+
+    /// How an individual came to be, if that is known. Nobody is born before its parents: what says so of those who
+    /// were born on the same island is not believed. Immigrants may be of later generations than their offspring,
+    /// where islands do not wait for each other.
+    fn birth(&self, id: Id) -> Option<Birth> {
+        let birth = self.recorded(id)?;
+        let is_older = |parent: Id| parent.island != id.island || parent.generation < id.generation;
+        birth.parents.into_iter().flatten().all(is_older).then_some(birth)
+    }
+
+    /// The mothers of an individual from the first one on, itself the last: whose root the bodies of the line have,
+    /// since a genome begins with its mother's genes.
+    fn line(&self, id: Id) -> Vec<Id> {
+        let (mut line, mut seen) = (Vec::new(), BTreeSet::new());
+        let mut next = Some(id);
+        // A file may say of somebody to be its own ancestor.
+        while let Some(id) = next.filter(|&id| seen.insert(id)) {
+            line.push(id);
+            next = self.birth(id).and_then(|birth| birth.parents[0]);
+        }
+        line.reverse();
+        line
+    }
+}
+
+impl Descent for Lineage {
+    fn recorded(&self, id: Id) -> Option<Birth> {
+        let births = self.islands.get(&id.island)?.get(id.generation as usize)?;
+        births.births.get(id.index as usize).copied()
+    }
+}
+
 /// The births of all islands, as far as they are known.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Lineage {
@@ -72,30 +108,6 @@ impl Lineage {
     /// The generations that are known of an island.
     pub fn generations(&self, island: u32) -> usize {
         self.islands.get(&island).map_or(0, Vec::len)
-    }
-
-    /// How an individual came to be, if that is known. Nobody is born before its parents: what says so of those who
-    /// were born on the same island is not believed. Immigrants may be of later generations than their offspring,
-    /// where islands do not wait for each other.
-    pub fn birth(&self, id: Id) -> Option<Birth> {
-        let births = self.islands.get(&id.island)?.get(id.generation as usize)?;
-        let birth = *births.births.get(id.index as usize)?;
-        let is_older = |parent: Id| parent.island != id.island || parent.generation < id.generation;
-        birth.parents.into_iter().flatten().all(is_older).then_some(birth)
-    }
-
-    /// The mothers of an individual from the first one on, itself the last: whose root the bodies of the line have,
-    /// since a genome begins with its mother's genes.
-    pub fn line(&self, id: Id) -> Vec<Id> {
-        let (mut line, mut seen) = (Vec::new(), BTreeSet::new());
-        let mut next = Some(id);
-        // A file may say of somebody to be its own ancestor.
-        while let Some(id) = next.filter(|&id| seen.insert(id)) {
-            line.push(id);
-            next = self.birth(id).and_then(|birth| birth.parents[0]);
-        }
-        line.reverse();
-        line
     }
 
     /// The genomes of individuals, bred again from generation 0 on.

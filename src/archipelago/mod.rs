@@ -31,7 +31,7 @@ pub use arrivals::Arrivals;
 pub use digest::Digest;
 pub use inbox::{Arrival, Inbox};
 pub use island::{Champion, Island, Report, Step};
-pub use lineage::{Birth, Births, Lineage};
+pub use lineage::{Birth, Births, Descent, Lineage};
 pub use migration::{Migration, Outbox};
 pub use policy::{Emigrants, ExchangeMode, Replacement};
 pub use protocol::{Action, Protocol};

@@ -18,14 +18,16 @@ pub mod journal;
 pub mod logbook;
 pub mod record_log;
 pub mod run_dir;
+mod tail;
 
 pub use checkpoint::Checkpoint;
 pub use checkpoints::Checkpoints;
 pub use experiment_dir::ExperimentDir;
 pub use journal::{Journal, JournalReader};
 pub use logbook::{Entry, Logbook, Restored};
-pub use record_log::{RecordLog, Tail};
+pub use record_log::RecordLog;
 pub use run_dir::{Claim, RunDir};
+pub use tail::{Index, Tail};
 
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};

@@ -160,60 +160,8 @@ pub struct Contents<T> {
     pub torn_bytes: u64,
 }
 
-/// Reads a log from its beginning while another process appends to it.
-#[derive(Debug)]
-pub struct Tail<T> {
-    path: PathBuf,
-    file: Option<File>,
-    start: u64,
-    records: PhantomData<fn() -> T>,
-}
-
-impl<T: DeserializeOwned> Tail<T> {
-    /// A reader of the log at `path`, which need not exist yet.
-    pub fn of(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into(), file: None, start: 0, records: PhantomData }
-    }
-
-    /// The next whole record, if it is there by now.
-    ///
-    /// # Errors
-    /// If the file cannot be read, or the record is whole and not one of this type.
-    pub fn next_record(&mut self) -> Result<Option<T>, StoreError> {
-        let Some(body) = self.next_body()? else { return Ok(None) };
-        decode(&body).map(Some).map_err(|reason| StoreError::damaged(&self.path, reason))
-    }
-
-    /// Leaves out the next `count` records, or as many as there are.
-    ///
-    /// # Errors
-    /// If the file cannot be read.
-    pub fn skip(&mut self, count: usize) -> Result<(), StoreError> {
-        for _ in 0..count {
-            if self.next_body()?.is_none() {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    fn next_body(&mut self) -> Result<Option<Vec<u8>>, StoreError> {
-        if self.file.is_none() {
-            self.file = match file::open_to_read(&self.path) {
-                Ok(file) => Some(file),
-                Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => None,
-                Err(error) => return Err(error),
-            };
-        }
-        let Some(file) = &self.file else { return Ok(None) };
-        let body = body_at(file, self.start).map_err(StoreError::io("read", &self.path))?;
-        self.start += body.as_ref().map_or(0, |body| record_bytes(body.len()) as u64);
-        Ok(body)
-    }
-}
-
 /// The body of the record at `start`, if there is a whole one.
-fn body_at(file: &File, start: u64) -> std::io::Result<Option<Vec<u8>>> {
+pub(super) fn body_at(file: &File, start: u64) -> std::io::Result<Option<Vec<u8>>> {
     let left = file.metadata()?.len().saturating_sub(start);
     let mut length = [0; LENGTH_BYTES];
     if left < length.len() as u64 || !is_read(file.read_exact_at(&mut length, start))? {
@@ -261,7 +209,7 @@ fn scan(file: &File, mut see: impl FnMut(&[u8])) -> std::io::Result<Scan> {
 }
 
 /// The length of a record whose body is so long.
-fn record_bytes(body: usize) -> usize {
+pub(super) fn record_bytes(body: usize) -> usize {
     LENGTH_BYTES + body + CHECKSUM_BYTES
 }
 
@@ -345,24 +293,6 @@ mod tests {
             let error = log.get(1).expect_err("it is damaged").to_string();
             assert!(error.ends_with("log is damaged: record 1 is not whole"), "{error}");
         }
-    }
-
-    #[test]
-    fn a_tail_follows_a_log_that_comes_late_and_is_cut_and_written_again() {
-        let folder = folder();
-        let path = folder.path().join("log");
-        let mut tail = Tail::<String>::of(&path);
-        let mut next = || tail.next_record().expect("it is readable");
-        assert_eq!(next(), None);
-        write(&path, &["one", "two"]);
-        assert_eq!([next(), next(), next()], [Some("one".into()), Some("two".into()), None]);
-        let mut log = RecordLog::<String>::open(&path).expect("it is there");
-        log.truncate(1).expect("it is writable");
-        assert_eq!(next(), None);
-        for record in ["two", "three"] {
-            log.append(&record.to_owned()).expect("the disk has room");
-        }
-        assert_eq!([next(), next()], [Some("three".into()), None]);
     }
 
     #[test]

@@ -20,7 +20,6 @@ impl Pace {
     /// About how many slots [`Pace::for_run`] makes if nothing else is wished: two minutes of film with trials of
     /// ten seconds.
     pub const SLOTS: u32 = 12;
-
     /// A pace that gives a run of `generations` a watchable film, or a slot every `clip_every` generations;
     /// `slot_s` is the length of a trial.
     pub fn for_run(generations: u32, clip_every: Option<u32>, slot_s: f64) -> Self {
@@ -42,6 +41,17 @@ impl Pace {
     fn opened(self, generation: u32) -> u32 {
         generation / self.generations_per_slot.max(1) + 1
     }
+}
+
+/// The first generations all have a row of curves and news; of later ones every second, fourth, eighth, … has: so many
+/// between a generation and twice that generation.
+const ROWS: u32 = 512;
+
+/// Whether a generation has a row of curves and news. So the film of a long run costs little more than that of a short
+/// one, and a longer run has all rows of a shorter one. The last generation that there is has a row in any case.
+pub fn opens_row(generation: u32) -> bool {
+    let doublings = (generation / ROWS).max(1).ilog2();
+    generation.is_multiple_of(1 << doublings)
 }
 
 /// A clip that is to be shown now.
@@ -150,9 +160,11 @@ mod tests {
     use crate::simulation::trajectory::Trajectory;
     use nalgebra::UnitQuaternion;
 
+    const PACE: Pace = Pace { slot_s: 2.0, generations_per_slot: 10 };
+
     #[test]
     fn a_champion_that_comes_too_late_gets_a_slot_of_its_own() {
-        let mut film = Film::new(2, Pace { slot_s: 2.0, generations_per_slot: 10 });
+        let mut film = Film::new(2, PACE);
         for island in 0..2 {
             film.champion(clip(island, 0));
             film.reached(island, 0);
@@ -167,7 +179,7 @@ mod tests {
 
     #[test]
     fn of_champions_within_a_slot_the_last_one_is_shown() {
-        let mut film = Film::new(1, Pace { slot_s: 2.0, generations_per_slot: 10 });
+        let mut film = Film::new(1, PACE);
         for generation in 0..=10 {
             film.champion(clip(0, generation));
             film.reached(0, generation);
@@ -189,6 +201,15 @@ mod tests {
             assert!(pace.film_s(generations) <= 120.0, "{pace:?}");
             assert!(pace.opens_slot(0));
         }
+    }
+
+    #[test]
+    fn a_short_run_has_all_rows_and_a_long_one_some_thousands() {
+        let rows =
+            |generations| (0..=generations).filter(|&generation| opens_row(generation)).count();
+        assert_eq!([0, 1, 140, 1_023].map(rows), [1, 2, 141, 1_024]);
+        assert_eq!([2_047, 4_095, 100_000, 1_000_000].map(rows), [1_536, 2_048, 4_419, 6_097]);
+        assert!(opens_row(1 << 31));
     }
 
     fn shown(film: &mut Film, island: u32) -> Vec<(u32, f64)> {

@@ -75,7 +75,7 @@ pub use card::{Lane, Program, RunCard};
 pub use clip::Clip;
 pub use draft::Draft;
 pub use family::Family;
-pub use film::Pace;
+pub use film::{Pace, opens_row};
 pub use live::Live;
 pub use recorder::Recorder;
 pub use state::Mood;

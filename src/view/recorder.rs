@@ -4,7 +4,7 @@ use super::blueprint::{self, Audience};
 use super::card::{Program, RunCard};
 use super::family::{self, Family};
 use super::file::RrdFile;
-use super::film::{Film, Pace, Screening};
+use super::film::{Film, Pace, Screening, opens_row};
 use super::live::{self, Live, Server};
 use super::race::{self, Field};
 use super::scenery::Track;
@@ -33,6 +33,8 @@ pub struct Recorder {
     film: Film,
     field: Field,
     program: Program,
+    /// The last generation of each island, if it has no row yet.
+    unshown: Vec<Option<Report>>,
     track: Track,
     server: Option<Server>,
     file: RrdFile,
@@ -74,6 +76,7 @@ impl Recorder {
             film,
             field: Field::new(track),
             program: card.program,
+            unshown: vec![None; card.lane_count() as usize],
             track,
             server,
             file,
@@ -104,11 +107,24 @@ impl Recorder {
         self.film.pace().opens_slot(generation)
     }
 
-    /// One generation of one island: its figures, and the champion if it is time to show it. Report each
-    /// island's generations in their order, and a generation's champion before it.
+    /// One generation of one island: its figures if it has a row of them, and the champion if it is time to show it.
+    /// Report each island's generations in their order, and a generation's champion before it.
     pub fn report(&mut self, report: &Report) -> Result<(), ViewError> {
-        let Report { island, generation, statistics, .. } = *report;
+        let (island, generation) = (report.island, report.generation);
         self.film.reached(island, generation);
+        let is_row = opens_row(generation);
+        if is_row {
+            self.figures(report)?;
+        }
+        if let Some(unshown) = self.unshown.get_mut(island as usize) {
+            *unshown = (!is_row).then_some(*report);
+        }
+        self.roll(island)
+    }
+
+    /// A row of each curve.
+    fn figures(&self, report: &Report) -> Result<(), ViewError> {
+        let Report { island, generation, statistics, .. } = *report;
         self.stamp(generation);
         let figures = [
             ("fitness/best", statistics.best.finite()),
@@ -120,8 +136,9 @@ impl Recorder {
                 self.stream.log(format!("{metric}/{island}"), &Scalars::single(value))?;
             }
         }
-        self.stream.log(format!("population/{island}"), &histogram(island, &statistics.spread))?;
-        self.roll(island)
+        Ok(self
+            .stream
+            .log(format!("population/{island}"), &histogram(island, &statistics.spread))?)
     }
 
     /// An island has a new champion. It is shown in the next slot of the film that opens; one that is
@@ -215,6 +232,8 @@ impl Recorder {
     /// If something could not be written.
     pub fn finish(mut self) -> Result<(), ViewError> {
         self.film.end();
+        let unshown = std::mem::take(&mut self.unshown);
+        unshown.iter().flatten().try_for_each(|report| self.figures(report))?;
         for lane in 0..self.film.lanes() {
             self.roll(lane)?;
         }

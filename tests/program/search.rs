@@ -44,7 +44,8 @@ fn whatever_searches_processes_equal_an_archipelago_in_one_process_and_verify() 
 /// On a royal road most mutants are worth as much as their mother. A climber that took none of them stayed at 24 of 64.
 #[test]
 fn a_climber_crosses_what_is_flat() {
-    let settings = "problem = \"royal-road\"\nislands = 1\nalgorithm = \"hill-climb\"\ngenerations = 1300";
+    let settings =
+        "problem = \"royal-road\"\nislands = 1\nalgorithm = \"hill-climb\"\ngenerations = 1300";
     for seed in 1..=5 {
         let config = Config { seed: Some(seed), ..Config::parse(settings).unwrap() };
         let (_, rows) = in_lockstep(&config);

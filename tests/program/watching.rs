@@ -9,7 +9,7 @@ use std::time::Duration;
 
 /// A run whose film is many megabytes: more than the system keeps for a viewer that does not read.
 const RUN: &str =
-    "--n 2 --seed 53 --population 4 --robustness 0 --generations 24 --genes 2 --clip-every 1";
+    "--n 2 --seed 53 --population 4 --robustness 2 --generations 24 --genes 2 --clip-every 1";
 /// What comes before the first thing that is shown.
 const OVERTURE: usize = 4_000;
 

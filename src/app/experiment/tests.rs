@@ -91,7 +91,7 @@ fn tasks_are_other_aims_and_climbing_needs_no_file() {
 fn a_budget_stands_beside_generations_or_instead_of_them() {
     let generations =
         |text: &str| plan(text).expect("it makes sense").settings[0].config(1).generations;
-    assert_eq!(generations(""), 80);
+    assert_eq!(generations(""), 140);
     assert_eq!(generations("evaluations = 9"), 1_000_000_000);
     assert_eq!(generations("evaluations = 9\n[base]\ngenerations = 5"), 5);
     assert_eq!(generations("[base]\ngenerations = 5"), 5);
@@ -105,11 +105,11 @@ fn a_run_has_another_key_if_and_only_if_something_that_decides_it_is_another() {
     };
     let first = key("", 1);
     assert_eq!(key("target = 3.0\nseeds = 2\n[[setting]]\nname = \"x\"", 1), first);
-    assert_eq!(key("[base]\ngenerations = 80", 1), first);
+    assert_eq!(key("[base]\ngenerations = 140", 1), first);
     for other in [
         key("", 2),
         key("evaluations = 100", 1),
-        key("[base]\ngenerations = 81", 1),
+        key("[base]\ngenerations = 141", 1),
         key("[base]\nmigrants = 1", 1),
     ] {
         assert_ne!(other, first);

@@ -242,7 +242,7 @@ mod tests {
 
     #[test]
     fn the_best_only_rises_and_a_target_is_reached_with_the_first_generation_as_good() {
-        let config = Config { elites: 0, generations: 8, ..config() };
+        let config = Config { elites: 0, generations: 16, ..config() };
         let trial = run_one(&config, None, || false).expect("nobody stops it");
         assert!(trial.curve.is_sorted_by_key(|point| point.best));
         assert!(!trial.curve.is_sorted_by_key(|point| point.mean), "there is worse, too");

@@ -2,7 +2,8 @@
 
 use super::super::pedigree::Herald;
 use super::super::subject::Subject;
-use crate::archipelago::{Births, Champion, Lineage, Report};
+use super::logs::BirthRecords;
+use crate::archipelago::{Champion, Report};
 use crate::evolution::{Fitness, Id};
 use crate::view::{Family, Pace};
 
@@ -11,7 +12,7 @@ use crate::view::{Family, Pace};
 pub struct Ancestry<P> {
     herald: Herald<P>,
     pace: Pace,
-    lineage: Lineage,
+    births: BirthRecords,
     /// The champions of each island: generation, who, and how good.
     champions: Vec<Vec<(u32, Id, Fitness)>>,
     /// The generations of each island that are known.
@@ -23,11 +24,11 @@ pub struct Ancestry<P> {
 
 impl<P: Subject> Ancestry<P> {
     /// Knows nobody.
-    pub fn new(herald: Herald<P>, islands: u32, pace: Pace) -> Self {
+    pub fn new(herald: Herald<P>, births: BirthRecords, islands: u32, pace: Pace) -> Self {
         Self {
             herald,
             pace,
-            lineage: Lineage::default(),
+            births,
             champions: vec![Vec::new(); islands as usize],
             known: vec![0; islands as usize],
             slot: 0,
@@ -36,16 +37,8 @@ impl<P: Subject> Ancestry<P> {
     }
 
     /// Takes in a generation of an island.
-    pub fn learn(
-        &mut self,
-        report: &Report,
-        champion: Option<&Champion<P::Gene>>,
-        births: Option<Births>,
-    ) {
+    pub fn learn(&mut self, report: &Report, champion: Option<&Champion<P::Gene>>) {
         let island = report.island as usize;
-        if let Some(births) = births {
-            self.lineage.push(report.island, births);
-        }
         if let Some(champion) = champion {
             let (id, standing) = (champion.individual.id, champion.individual.fitness);
             self.champions[island].push((champion.generation, id, standing));
@@ -70,7 +63,7 @@ impl<P: Subject> Ancestry<P> {
             let best = self.best(generation).filter(|&best| Some(best) != self.shown);
             if let (Some(id), true) = (best, slot < u32::MAX) {
                 self.shown = Some(id);
-                let family = self.herald.family(&self.lineage, id);
+                let family = self.herald.family(&self.births, id);
                 return Some((start_s, generation, family));
             }
             if is_last || slot == u32::MAX {

@@ -6,9 +6,13 @@ use super::super::console::say;
 use super::super::pedigree::{self, Herald};
 use super::super::subject::{Shot, Subject};
 use super::ancestry::Ancestry;
-use super::logs::Sighting;
+use super::logs::{BirthRecords, Sighting};
+use super::news::News;
 use crate::archipelago::{Champion, ExchangeMode};
-use crate::view::{Clip, Draft, Lane, Live, Mood, Pace, Program, Recorder, RunCard, ViewError};
+use crate::store::RunDir;
+use crate::view::{
+    Clip, Draft, Lane, Live, Pace, Program, Recorder, RunCard, ViewError, opens_row,
+};
 use std::path::Path;
 
 /// A recorder that simulates the champions that will be seen, and no others: filming must cost the islands
@@ -19,8 +23,7 @@ pub struct FilmRecorder<P: Subject> {
     recorder: Recorder,
     /// Each island's newest champion, if it was not filmed.
     unfilmed: Vec<Option<Champion<P::Gene>>>,
-    /// The generation of each island's newest champion.
-    reigns_since: Vec<u32>,
+    news: Vec<News<P::Gene>>,
     ancestry: Ancestry<P>,
     /// Whom each island receives from.
     sources: Vec<Vec<u32>>,
@@ -29,25 +32,23 @@ pub struct FilmRecorder<P: Subject> {
     has_shown: bool,
 }
 
-/// An island without a better champion for so many generations stagnates.
-const STAGNANT: u32 = 5;
-
 impl<P: Subject> FilmRecorder<P> {
-    /// Begins a recording for the path `recording`, in `folder`, and serves it if wanted; where it cannot be
-    /// served, it is only recorded.
+    /// Begins the recording of a run, in `folder`, and serves it if wanted; where it cannot be served, it is only
+    /// recorded.
     ///
     /// # Errors
     /// If nothing can be written there.
     pub fn open(
         folder: &Path,
-        recording: &Path,
+        dir: &RunDir,
         live: Option<Live>,
         config: &Config,
         problem: P,
         clip_every: Option<u32>,
     ) -> Result<Self, Failure> {
         let card = run_card(config, &problem, clip_every);
-        let record = |live| Recorder::create(Draft::within(folder, recording)?, live, card.clone());
+        let record =
+            |live| Recorder::create(Draft::within(folder, &dir.recording())?, live, card.clone());
         let recorder = match record(live) {
             Err(error @ (ViewError::NoFreePort { .. } | ViewError::Serve { .. })) => {
                 say(&format!("warning: {error}; this run is only recorded"));
@@ -57,24 +58,15 @@ impl<P: Subject> FilmRecorder<P> {
         };
         let islands = config.islands;
         let herald = Herald::of(config, problem.clone());
-        let ancestry = Ancestry::new(herald.clone(), islands, recorder.pace());
+        let births = BirthRecords::of(dir, islands);
+        let ancestry = Ancestry::new(herald.clone(), births, islands, recorder.pace());
         let unfilmed = (0..islands).map(|_| None).collect();
-        let reigns_since = vec![0; islands as usize];
+        let news = (0..islands).map(|_| News::none()).collect();
         let graph = config.archipelago().graph();
         let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
         let among = if config.exchange == ExchangeMode::Async { "some of " } else { "" };
         let has_shown = false;
-        Ok(Self {
-            problem,
-            herald,
-            recorder,
-            unfilmed,
-            reigns_since,
-            ancestry,
-            sources,
-            among,
-            has_shown,
-        })
+        Ok(Self { problem, herald, recorder, unfilmed, news, ancestry, sources, among, has_shown })
     }
 
     /// The problem that is solved.
@@ -102,31 +94,58 @@ impl<P: Subject> FilmRecorder<P> {
     /// # Errors
     /// If it cannot be recorded.
     pub fn show(&mut self, sighting: &Sighting<P::Gene>) -> Result<(), Failure> {
-        let Sighting { report, champion, births } = sighting;
+        let Sighting { report, champion } = sighting;
         let (island, generation) = (report.island, report.generation);
-        if report.immigrants > 0 {
-            let sources: Vec<String> =
-                self.sources[island as usize].iter().map(u32::to_string).collect();
-            let news = format!(
-                "migration {}{} → {island}: {} immigrants",
-                self.among,
-                sources.join(", "),
-                report.immigrants
-            );
-            self.recorder.event(Some(island), generation, &news)?;
-        }
+        self.news[island as usize].learn(sighting);
         if let Some(champion) = champion {
-            self.recorder.event(Some(island), generation, &self.news(island, champion))?;
             self.unfilmed[island as usize] = Some(champion.clone());
         }
-        self.tell_mood(island, generation, champion.as_ref())?;
+        if opens_row(generation) {
+            self.tell(island)?;
+        }
         if self.recorder.opens_slot(generation) {
             self.film(island)?;
         }
         self.has_shown = true;
         self.recorder.report(report)?;
-        self.ancestry.learn(report, champion.as_ref(), births.clone());
+        self.ancestry.learn(report, champion.as_ref());
         self.show_families(false)
+    }
+
+    /// Tells what is new of an island.
+    fn tell(&mut self, island: u32) -> Result<(), Failure> {
+        let news = self.news[island as usize].take();
+        let generation = news.generation;
+        if let Some(migration) = self.migration(island, &news) {
+            self.recorder.event(Some(island), generation, &migration)?;
+        }
+        if let Some(champion) = self.succession(island, &news) {
+            self.recorder.event(Some(island), generation, &champion)?;
+        }
+        match news.mood {
+            Some(mood) => Ok(self.recorder.mood(island, generation, mood)?),
+            None => Ok(()),
+        }
+    }
+
+    fn migration(&self, island: u32, news: &News<P::Gene>) -> Option<String> {
+        let News { immigrants, exchanges, .. } = *news;
+        let sources: Vec<String> =
+            self.sources[island as usize].iter().map(u32::to_string).collect();
+        let times =
+            if exchanges > 1 { format!(" in {exchanges} exchanges") } else { String::new() };
+        let from = format!("{}{}", self.among, sources.join(", "));
+        (immigrants > 0)
+            .then(|| format!("migration {from} → {island}: {immigrants} immigrants{times}"))
+    }
+
+    fn succession(&self, island: u32, news: &News<P::Gene>) -> Option<String> {
+        let champion = news.champion.as_ref()?;
+        let more = match news.champions {
+            0 | 1 => String::new(),
+            many => format!("; the last of {many}"),
+        };
+        Some(format!("{}{more}", self.coronation(island, champion)))
     }
 
     /// Shows the families that are due.
@@ -135,25 +154,6 @@ impl<P: Subject> FilmRecorder<P> {
             self.recorder.family(start_s, generation, &family)?;
         }
         Ok(())
-    }
-
-    fn tell_mood(
-        &mut self,
-        island: u32,
-        generation: u32,
-        champion: Option<&Champion<P::Gene>>,
-    ) -> Result<(), Failure> {
-        let since = &mut self.reigns_since[island as usize];
-        let mood = match champion {
-            Some(champion) if champion.individual.id.island != island => Mood::IsConquered,
-            Some(_) => Mood::Improves,
-            None if generation == *since + STAGNANT => Mood::Stagnates,
-            None => return Ok(()),
-        };
-        if champion.is_some() {
-            *since = generation;
-        }
-        Ok(self.recorder.mood(island, generation, mood)?)
     }
 
     /// Waits until everything is written.
@@ -181,6 +181,7 @@ impl<P: Subject> FilmRecorder<P> {
     /// # Errors
     /// If the disk is full or gone.
     pub fn finish(mut self) -> Result<(), Failure> {
+        (0..self.unfilmed.len() as u32).try_for_each(|island| self.tell(island))?;
         (0..self.unfilmed.len() as u32).try_for_each(|island| self.film(island))?;
         self.show_families(true)?;
         if self.has_shown {
@@ -189,7 +190,7 @@ impl<P: Subject> FilmRecorder<P> {
         Ok(())
     }
 
-    fn news(&self, island: u32, champion: &Champion<P::Gene>) -> String {
+    fn coronation(&self, island: u32, champion: &Champion<P::Gene>) -> String {
         let individual = &champion.individual;
         let score = self.score(champion);
         let remark = self.problem.remark(&individual.genome);

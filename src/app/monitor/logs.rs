@@ -1,9 +1,10 @@
 //! What the islands of a run have written down, read while they write on.
 
 use super::super::console::say;
-use crate::archipelago::{Births, Champion, Report};
-use crate::evolution::Gene;
-use crate::store::{Entry, RunDir, StoreError, Tail};
+use crate::archipelago::{Birth, Births, Champion, Descent, Report};
+use crate::evolution::{Gene, Id};
+use crate::store::{Entry, Index, RunDir, StoreError, Tail};
+use std::cell::RefCell;
 use std::path::PathBuf;
 
 /// A generation of an island.
@@ -13,8 +14,6 @@ pub struct Sighting<G> {
     pub report: Report,
     /// The champion, if it is a new one.
     pub champion: Option<Champion<G>>,
-    /// Who was born in it; nobody if that was not written down.
-    pub births: Option<Births>,
 }
 
 /// The logs of all islands.
@@ -47,6 +46,26 @@ impl<G: Gene> Logs<G> {
     }
 }
 
+/// Who was born of whom, as the islands wrote it down: looked up there when it is asked for, since nobody could keep all
+/// births of a long run in memory. What cannot be read is not known.
+#[derive(Debug)]
+pub struct BirthRecords(Vec<RefCell<Index<Births>>>);
+
+impl BirthRecords {
+    /// Those of a run of so many islands.
+    pub fn of(dir: &RunDir, islands: u32) -> Self {
+        Self((0..islands).map(|island| RefCell::new(Index::of(dir.lineages(island)))).collect())
+    }
+}
+
+impl Descent for BirthRecords {
+    fn recorded(&self, id: Id) -> Option<Birth> {
+        let mut births = self.0.get(id.island as usize)?.borrow_mut();
+        let births = births.get(id.generation as usize).ok()??;
+        births.births.get(id.index as usize).copied()
+    }
+}
+
 /// The logs of an island.
 #[derive(Debug)]
 struct Island<G> {
@@ -55,7 +74,6 @@ struct Island<G> {
     path: PathBuf,
     reports: Tail<Entry>,
     champions: Tail<Champion<G>>,
-    lineages: Tail<Births>,
     /// A champion whose generation was not reported yet.
     coming: Option<Champion<G>>,
     /// What was read and not taken.
@@ -72,7 +90,6 @@ impl<G: Gene> Island<G> {
             path: dir.reports(index),
             reports: Tail::of(dir.reports(index)),
             champions: Tail::of(dir.champions(index)),
-            lineages: Tail::of(dir.lineages(index)),
             coming: None,
             next: None,
             generation: 0,
@@ -106,8 +123,7 @@ impl<G: Gene> Island<G> {
             );
             return Err(StoreError::Damaged { path: self.path.clone(), reason });
         }
-        // A generation's births and its champion are written before its report.
-        let births = self.lineages.next_record()?;
+        // A generation's champion is written before its report.
         let mut champion = None;
         loop {
             self.coming = match self.coming.take() {
@@ -115,7 +131,7 @@ impl<G: Gene> Island<G> {
                 coming => coming,
             };
             if self.coming.as_ref().is_none_or(|coming| coming.generation > report.generation) {
-                return Ok(Some(Sighting { report, champion, births }));
+                return Ok(Some(Sighting { report, champion }));
             }
             champion = self.coming.take();
         }

@@ -1,7 +1,7 @@
 //! The monitor's process: films what the islands write down, and serves it live. It only looks: a run without
 //! it loses nothing but the film, and a monitor that dies loses nothing at all, since another one makes the
-//! same film anew. `logs` reads what the islands wrote, `film_recorder` films it, `ancestry` says whose family is seen,
-//! and `show` when.
+//! same film anew. `logs` reads what the islands wrote, `film_recorder` films it, `news` is what it tells, `ancestry` says
+//! whose family is seen, and `show` when.
 
 use super::Failure;
 use super::cli::MonitorArgs;
@@ -12,6 +12,8 @@ mod ancestry;
 mod film_recorder;
 #[cfg(feature = "view")]
 mod logs;
+#[cfg(feature = "view")]
+mod news;
 #[cfg(feature = "view")]
 mod show;
 

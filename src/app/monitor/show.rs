@@ -71,7 +71,7 @@ impl Projection<'_> {
         });
         let folder = if launched { dir.partial() } else { dir.path().to_owned() };
         let film_recorder =
-            FilmRecorder::open(&folder, &dir.recording(), live, config, problem, args.clip_every)?;
+            FilmRecorder::open(&folder, &dir, live, config, problem, args.clip_every)?;
         if let (Some(wanted), Some(port)) = (args.view.view_port, film_recorder.port())
             && wanted != port
         {

@@ -8,7 +8,7 @@ use super::super::pedigree::{self, Herald};
 use super::super::subject::Subject;
 use super::super::{Failure, seeds};
 use super::film::{Studio, recorder};
-use crate::archipelago::{Birth, Births, Champion, Lineage};
+use crate::archipelago::{Birth, Births, Champion, Descent, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual, Problem};
 use crate::problems::Locomotion;
