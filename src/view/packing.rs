@@ -17,6 +17,8 @@ use std::path::Path;
 
 /// A piece with so many rows is large enough: it is what a viewer loads at a time.
 const ROWS: usize = 4096;
+/// So many pieces of a kind are kept at most: a piece of a row takes kilobytes of memory.
+const PIECES: usize = 64;
 
 /// Writes the recording `from` again, in larger pieces. Equal recordings become equal ones, whenever their rows came.
 ///
@@ -68,10 +70,13 @@ impl Packer {
         let key = (chunk.entity_path().to_string(), components);
         let heap = self.heaps.entry(key).or_insert_with(|| Heap { store, chunks: Vec::new() });
         heap.chunks.push(chunk);
-        if heap.chunks.iter().map(Chunk::num_rows).sum::<usize>() < ROWS {
-            return Ok(());
+        if heap.chunks.iter().map(Chunk::num_rows).sum::<usize>() >= ROWS {
+            return heap.write(&self.to);
         }
-        heap.write(&self.to)
+        match heap.chunks.len() {
+            PIECES => heap.join(),
+            _ => Ok(()),
+        }
     }
 
     fn finish(mut self) -> Result<(), String> {
@@ -83,6 +88,16 @@ impl Packer {
 impl Heap {
     /// Writes all that there is as one piece.
     fn write(&mut self, to: &RrdFile) -> Result<(), String> {
+        self.join()?;
+        for chunk in self.chunks.drain(..) {
+            let message = chunk.to_arrow_msg().map_err(|error| error.to_string())?;
+            to.send(LogMsg::ArrowMsg(self.store.clone(), message));
+        }
+        Ok(())
+    }
+
+    /// Makes one piece of all that there is.
+    fn join(&mut self) -> Result<(), String> {
         let mut chunks = std::mem::take(&mut self.chunks);
         // By twos: one after the other would copy the first rows again and again.
         while chunks.len() > 1 {
@@ -94,10 +109,7 @@ impl Heap {
             });
             chunks = pairs.collect::<Result<_, _>>()?;
         }
-        for chunk in chunks {
-            let message = chunk.to_arrow_msg().map_err(|error| error.to_string())?;
-            to.send(LogMsg::ArrowMsg(self.store.clone(), message));
-        }
+        self.chunks = chunks;
         Ok(())
     }
 }
@@ -120,10 +132,12 @@ mod tests {
             let here = chunks.iter().filter(|chunk| chunk.entity_path().to_string() == path);
             here.filter(|chunk| !chunk.is_static()).map(Chunk::num_rows).collect()
         };
-        for path in ["/fitness/best/0", "/diversity/0", "/population/0", "/events/0"] {
-            let mut rows = rows(path);
-            rows.sort_unstable();
-            assert_eq!(rows, [4, ROWS], "{path}");
+        let mut events = rows("/events/0");
+        events.sort_unstable();
+        assert_eq!(events, [4, ROWS]);
+        // Those of generations that have a row, and that of the last one.
+        for path in ["/fitness/best/0", "/diversity/0", "/population/0"] {
+            assert_eq!(rows(path), [2_048 + 2], "{path}");
         }
         let curve = chunks.iter().find(|chunk| chunk.num_rows() == ROWS).unwrap();
         assert!(curve.timelines().values().all(|times| times.is_sorted()));
