@@ -63,7 +63,7 @@ pub struct SettingArgs {
     #[arg(long, value_name = "L", help_heading = "Genetic algorithm")]
     pub max_links: Option<usize>,
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION
-    /// [default: tournament:3; sus with --survival sharing]
+    /// [default: tournament:3], with --survival sharing sus
     #[arg(long, value_name = "SCHEME", help_heading = "Genetic algorithm")]
     pub selection: Option<Selection>,
     /// How many of the best live on unchanged [default: 2]
