@@ -202,8 +202,8 @@ impl Config {
         }
     }
 
-    /// Makes sure that nothing is said that means nothing to the problem or the algorithm; the ranges must have been
-    /// checked.
+    /// Makes sure that nothing is said that means nothing to the problem, the algorithm or who survives; the ranges must
+    /// have been checked.
     pub(super) fn check_use(&self) -> Result<(), Failure> {
         let Self { problem, dimensions, .. } = *self;
         // What is of no use to creatures needs no problem that it is of use to.
@@ -213,25 +213,19 @@ impl Config {
         let tables = table(self).and_then(|said| Ok((said, table(&Self::default_for(wish))?)));
         let (said, usual) = tables.map_err(Failure::usage)?;
         let differs = |name: &&str| said.get(*name) != usual.get(*name);
-        let idle = self.idle();
-        if let Some(name) = idle.iter().find(|name| differs(name)) {
-            return Err(Failure::usage(format!(
-                "{name} means nothing to {}: leave it out, or choose another --algorithm",
-                self.algorithm
-            )));
+        let chosen = [
+            (self.idle().to_vec(), self.algorithm.to_string(), "algorithm"),
+            (self.unselective().to_vec(), self.survival.to_string(), "survival"),
+            (problem.useless(), problem.to_string(), "problem"),
+        ];
+        for (useless, choice, flag) in chosen {
+            if let Some(name) = useless.into_iter().find(differs) {
+                return Err(Failure::usage(format!(
+                    "{name} means nothing to {choice}: leave it out, or choose another --{flag}"
+                )));
+            }
         }
-        if let Some(name) = self.unselective().iter().find(|name| differs(name)) {
-            return Err(Failure::usage(format!(
-                "{name} means nothing to {}: leave it out, or choose another --survival",
-                self.survival
-            )));
-        }
-        match problem.useless().into_iter().find(differs) {
-            None => Ok(()),
-            Some(name) => Err(Failure::usage(format!(
-                "{name} means nothing to {problem}: leave it out, or choose another --problem"
-            ))),
-        }
+        Ok(())
     }
 
     /// The names of the settings that mean nothing to the algorithm.

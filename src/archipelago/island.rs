@@ -133,7 +133,7 @@ pub fn step<P: Problem>(
         generation::evaluate(problem, offspring, &population, &hurdles);
     let births = Births::of(generation, &memory, &brood);
     let stream = |purpose| moment.source.stream(generation, u32::MAX, purpose);
-    let memory = memory.after::<P>(&population, &brood, strategy, &mut stream(Purpose::Sampling));
+    let memory = memory.after(&population, &brood, strategy, &mut stream(Purpose::Sampling));
     let (survival, mut fate) = (strategy.survival, stream(Purpose::Survival));
     let next = survival.survivors(problem, &population, brood, strategy.elites, &mut fate);
     let contender =

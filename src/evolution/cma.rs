@@ -124,6 +124,7 @@ impl Cma {
             return;
         }
         let all = std::mem::take(&mut self.waiting);
+        self.remember_best(&all);
         if self.is_flat(&all) || !self.update(&all) {
             self.begin_again(samples.len(), rng);
         }
@@ -138,19 +139,19 @@ impl Cma {
         *self = Self { doublings, ..Self::about(mean) };
     }
 
-    /// Whether neither these samples nor the best ones of the last updates differ in their scores (TolFun and its
-    /// history).
-    fn is_flat(&mut self, samples: &[(Vec<f64>, Fitness)]) -> bool {
-        let scores = || samples.iter().map(|(_, fitness)| *fitness);
-        let is_equal =
-            |a: Fitness, b: Fitness| a == b || (a.get() - b.get()).abs() < SCORE_TOLERANCE;
-        let (Some(best), Some(worst)) = (scores().max(), scores().min()) else { return true };
-        self.bests.push(best);
+    /// Remembers the best score of an update, beside as many of those before it as matter.
+    fn remember_best(&mut self, samples: &[(Vec<f64>, Fitness)]) {
+        self.bests.extend(samples.iter().map(|(_, fitness)| *fitness).max());
         let enough = history(self.dimensions(), samples.len());
         self.bests.drain(..self.bests.len().saturating_sub(enough));
-        let bests = || self.bests.iter().copied();
-        let (Some(most), Some(least)) = (bests().max(), bests().min()) else { return true };
-        is_equal(best, worst) || (self.bests.len() == enough && is_equal(most, least))
+    }
+
+    /// Whether the scores of these samples are all the same, or the best ones of all updates that are remembered (TolFun
+    /// and its history).
+    fn is_flat(&self, samples: &[(Vec<f64>, Fitness)]) -> bool {
+        let is_old = self.bests.len() == history(self.dimensions(), samples.len());
+        are_equal(samples.iter().map(|(_, fitness)| *fitness))
+            || (is_old && are_equal(self.bests.iter().copied()))
     }
 
     /// One update (equations 38 to 47 of the tutorial, without negative weights); whether the distribution is of use
@@ -230,6 +231,12 @@ impl Sampler {
         let step = &self.axes * white;
         self.mean.iter().zip(step.iter()).map(|(mean, step)| reflect(mean + step)).collect()
     }
+}
+
+/// Whether scores differ by next to nothing.
+fn are_equal(scores: impl Iterator<Item = Fitness> + Clone) -> bool {
+    let (Some(most), Some(least)) = (scores.clone().max(), scores.min()) else { return true };
+    most == least || (most.get() - least.get()).abs() < SCORE_TOLERANCE
 }
 
 /// So many updates without anything better are the last: 10 + 30n/λ.

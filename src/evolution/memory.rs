@@ -2,7 +2,7 @@
 
 use super::cma::Cma;
 use super::individual::Individual;
-use super::problem::{Gene, Problem};
+use super::problem::Gene;
 use super::strategy::{Adaptation, Reproduction, Strategy};
 use crate::rng::Stream;
 use serde::{Deserialize, Serialize};
@@ -52,10 +52,10 @@ impl Memory {
 
     /// What is known after a generation: `brood` are the offspring of `population`. The stream is drawn from where a
     /// distribution begins again.
-    pub fn after<P: Problem>(
+    pub fn after<G: Gene>(
         mut self,
-        population: &[Individual<P::Gene>],
-        brood: &[Individual<P::Gene>],
+        population: &[Individual<G>],
+        brood: &[Individual<G>],
         strategy: &Strategy,
         rng: &mut Stream,
     ) -> Self {
@@ -108,75 +108,4 @@ fn is_success<G>(child: &Individual<G>, population: &[Individual<G>]) -> bool {
 /// All numbers of a genome, one after the other.
 pub fn values<G: Gene>(genome: &[G]) -> Vec<f64> {
     genome.iter().flat_map(Gene::values).copied().collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::evolution::{Evaluation, Fitness, Id};
-    use crate::rng::{Purpose, Source};
-    use bytemuck::{Pod, Zeroable};
-
-    #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Pod, Zeroable)]
-    #[repr(transparent)]
-    struct Nothing(u8);
-
-    impl Gene for Nothing {
-        const WIRE_NAME: &'static str = "islands.tests.Nothing.v1";
-
-        fn is_valid(&self) -> bool {
-            true
-        }
-    }
-
-    struct Idle;
-
-    impl Problem for Idle {
-        type Gene = Nothing;
-
-        fn random_gene(&self, _: &mut Stream) -> Nothing {
-            Nothing(0)
-        }
-
-        fn random_genome(&self, _: &mut Stream) -> Vec<Nothing> {
-            vec![Nothing(0)]
-        }
-
-        fn distance(&self, _: &[Nothing], _: &[Nothing]) -> f64 {
-            0.0
-        }
-
-        fn evaluate(&self, _: &[Nothing]) -> Evaluation {
-            Evaluation::scored(0.0)
-        }
-    }
-
-    /// The scale after a generation of ten offspring so many of which are better than their mother.
-    fn scale_after(successes: u32) -> f64 {
-        let id = |index| Id { island: 0, generation: 0, index };
-        let one = |index, mother: Option<Id>, score| Individual {
-            id: id(index),
-            parents: [mother, None],
-            origin: 0,
-            genome: vec![Nothing(0)],
-            fitness: Fitness::new(score),
-        };
-        let mother = one(0, None, 1.0);
-        let score = |index| if index <= successes { 2.0 } else { 1.0 };
-        let brood: Vec<_> = (1..=10).map(|index| one(index, Some(id(0)), score(index))).collect();
-        let strategy = Strategy { adaptation: Adaptation::OneFifth, ..Strategy::default() };
-        let mut rng = Source { seed: 1, island: 0 }.stream(1, 0, Purpose::Sampling);
-        Memory::default().after::<Idle>(&[mother], &brood, &strategy, &mut rng).amount_scale
-    }
-
-    #[test]
-    fn steps_grow_while_more_than_a_fifth_succeed_and_shrink_while_fewer_do() {
-        assert_eq!(scale_after(2), 1.0, "a fifth");
-        for successes in [3, 10] {
-            assert_eq!(scale_after(successes), 1.0 / 0.85, "{successes} of 10");
-        }
-        for successes in [0, 1] {
-            assert_eq!(scale_after(successes), 0.85, "{successes} of 10: equals are no success");
-        }
-    }
 }

@@ -1,9 +1,11 @@
-//! What is evaluated, in which order, and what is not.
+//! What is evaluated, in which order, and what is not; and what an island learns of it.
 
 use super::generation::{Brood, Effort, Offspring, evaluate};
 use super::hurdles::Hurdles;
-use super::{Evaluation, Fitness, Gene, Id, Individual, Outcome, Problem};
-use crate::rng::Stream;
+use super::{
+    Adaptation, Evaluation, Fitness, Gene, Id, Individual, Memory, Outcome, Problem, Strategy,
+};
+use crate::rng::{Purpose, Source, Stream};
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -112,4 +114,31 @@ fn the_genomes_that_made_an_evaluation_panic_are_handed_on_once_each() {
     let brood = evaluate(&Ledger::default(), brood.map(child).to_vec(), &[], &Hurdles::NONE);
     assert_eq!(brood.panicked, [&[2, 66][..], &[66]].map(genome));
     assert_eq!(brood.effort.outcomes[Outcome::Panicked as usize], 2);
+}
+
+/// The scale of mutation after a generation of ten offspring so many of which are better than their mother.
+fn scale_after(successes: u32) -> f64 {
+    let one = |index, mother, score| Individual {
+        id: Id { index, ..NOBODY },
+        parents: [mother, None],
+        origin: 0,
+        genome: genome(&[1]),
+        fitness: Fitness::new(score),
+    };
+    let score = |index| if index <= successes { 2.0 } else { 1.0 };
+    let brood: Vec<_> = (1..=10).map(|index| one(index, Some(NOBODY), score(index))).collect();
+    let strategy = Strategy { adaptation: Adaptation::OneFifth, ..Strategy::default() };
+    let mut rng = Source { seed: 1, island: 0 }.stream(1, 0, Purpose::Sampling);
+    Memory::default().after(&[one(0, None, 1.0)], &brood, &strategy, &mut rng).amount_scale
+}
+
+#[test]
+fn steps_grow_while_more_than_a_fifth_succeed_and_shrink_while_fewer_do() {
+    assert_eq!(scale_after(2), 1.0, "a fifth");
+    for successes in [3, 10] {
+        assert_eq!(scale_after(successes), 1.0 / 0.85, "{successes} of 10");
+    }
+    for successes in [0, 1] {
+        assert_eq!(scale_after(successes), 0.85, "{successes} of 10: equals are no success");
+    }
 }

@@ -67,3 +67,64 @@ impl<G: Gene> News<G> {
         std::mem::replace(self, Self { generation, reigns_since, ..Self::none() })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::archipelago::Report;
+    use crate::creature;
+    use crate::evolution::generation::Effort;
+    use crate::evolution::population::Statistics;
+    use crate::evolution::{Fitness, Id, Individual, Spread};
+
+    /// A generation of island 1 with so many immigrants, and a new champion that was born on an island if there is one.
+    fn sighting(
+        generation: u32,
+        immigrants: u32,
+        born_on: Option<u32>,
+    ) -> Sighting<creature::Gene> {
+        let statistics = Statistics {
+            best: Fitness::new(1.0),
+            mean: Fitness::new(0.5),
+            median: Fitness::new(0.5),
+            diversity: 0.5,
+            phenotype_diversity: 0.5,
+            spread: Spread::of(&[]),
+        };
+        let report =
+            Report { island: 1, generation, statistics, effort: Effort::default(), immigrants };
+        let champion = born_on.map(|island| Champion {
+            generation,
+            individual: Individual {
+                id: Id { island, generation, index: 0 },
+                parents: [None; 2],
+                origin: 0,
+                genome: Vec::new(),
+                fitness: Fitness::new(1.0),
+            },
+            validated: None,
+        });
+        Sighting { report, champion }
+    }
+
+    #[test]
+    fn what_is_not_told_at_once_is_counted_until_it_is() {
+        let mut news = News::none();
+        for (generation, immigrants, born_on) in
+            [(0, 0, Some(1)), (1, 2, None), (2, 0, Some(0)), (3, 3, Some(1)), (4, 0, None)]
+        {
+            news.learn(&sighting(generation, immigrants, born_on));
+        }
+        let told = news.take();
+        assert_eq!((told.generation, told.immigrants, told.exchanges), (4, 5, 2));
+        assert_eq!((told.champions, told.champion.map(|it| it.generation)), (3, Some(3)));
+        assert_eq!(told.mood, Some(Mood::Improves));
+        let nothing = news.take();
+        assert_eq!((nothing.generation, nothing.immigrants, nothing.exchanges), (4, 0, 0));
+        assert!(nothing.champion.is_none() && nothing.champions == 0 && nothing.mood.is_none());
+        (5..=8).for_each(|generation| news.learn(&sighting(generation, 0, None)));
+        assert_eq!(news.take().mood, Some(Mood::Stagnates), "five generations after the champion");
+        news.learn(&sighting(9, 0, Some(0)));
+        assert_eq!(news.take().mood, Some(Mood::IsConquered));
+    }
+}

@@ -31,23 +31,19 @@ pub fn pareto<G: Clone>(
         if first == second {
             continue;
         }
-        if dominates(&living[first], &living[second]) {
+        // Of equals the first one stays.
+        if is_no_worse(&living[first], &living[second]) {
             living.remove(second);
-        } else if is_beaten(&living[first], &living[second]) {
+        } else if is_no_worse(&living[second], &living[first]) {
             living.remove(first);
         }
     }
     living
 }
 
-/// Whether one that was there first is no worse and no older than another.
-fn dominates<G>(first: &Individual<G>, second: &Individual<G>) -> bool {
-    first.fitness >= second.fitness && first.origin >= second.origin
-}
-
-/// Whether one is beaten by another that came later: it is no better and no younger, and not its equal.
-fn is_beaten<G>(first: &Individual<G>, second: &Individual<G>) -> bool {
-    dominates(second, first) && !dominates(first, second)
+/// Whether one is neither less fit nor older than another.
+fn is_no_worse<G>(one: &Individual<G>, other: &Individual<G>) -> bool {
+    one.fitness >= other.fitness && one.origin >= other.origin
 }
 
 /// The indices of those that nobody dominates, the fittest first.
