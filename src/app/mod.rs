@@ -4,9 +4,9 @@
 //! [`catalogue`] alone knows every problem, and hands the one that is meant to whoever does something with it;
 //! [`subject`] is what the program has to know of it. `run` is the launcher: it starts a process for each island
 //! (`island`) and one that watches (`monitor`), tied to it by `parent_link`: they die with it, and stop when it closes
-//! their standard input. What they wrote is gathered into a `result`. `experiment` compares settings over many runs in
-//! this process. `verify` looks whether a run's folder holds what it claims, `clean` removes what a killed launcher
-//! left; `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export`
+//! their standard input. What they wrote is gathered into a `result`, their `reports` into the metrics. `experiment`
+//! compares settings over many runs in this process. `verify` looks whether a run's folder holds what it claims, `clean`
+//! removes what a killed launcher left; `evaluate`, `inspect` and `replay` look at single `genomes` and bodies, `import` takes them in and `export`
 //! takes them elsewhere; `seeds` are genomes that a run begins with, `terrains` what it stands on. `pedigree` puts
 //! ancestries into words, and `viewer` opens a viewer. `console` prints and reads the clock, `table` lays out.
 //!
@@ -34,6 +34,7 @@ mod parent_link;
 mod pedigree;
 mod problem_args;
 mod replay;
+mod reports;
 mod result;
 mod run;
 mod seeds;

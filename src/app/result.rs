@@ -5,13 +5,14 @@ use super::catalogue::Kind;
 use super::config::Config;
 use super::kept::kept;
 use super::map_output;
+use super::reports::Reports;
 use super::subject::Subject;
 use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Gene, Individual};
 use crate::formats::metrics;
 use crate::problems::Validation;
-use crate::store::{Entry, RecordLog, RunDir, StoreError, checkpoint, file};
+use crate::store::{RecordLog, RunDir, StoreError, checkpoint, file};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -114,13 +115,13 @@ pub fn gather<P: Subject>(
     awaits_film: bool,
 ) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
-    let reports = write_metrics(dir, config)?;
+    let wall_seconds = write_metrics(dir, config)?;
     let champions = champions(dir, config)?;
     let best = best(problem, &champions);
     let best = best.ok_or_else(|| Failure::failed("no island has a champion"))?;
     write_champion(dir, problem, &best.1.individual)?;
     map_output::write(dir, config, problem, &islands)?;
-    let summary = summarise(dir, config, problem, &islands, best, &reports);
+    let summary = summarise(dir, config, problem, &islands, best, wall_seconds);
     let summary = Summary { awaits_film, ..summary };
     write(dir, &summary)?;
     Ok(summary)
@@ -149,17 +150,15 @@ fn write(dir: &RunDir, summary: &Summary) -> Result<(), StoreError> {
     dir.write(&dir.summary(), |out| Ok(serde_json::to_writer_pretty(out, summary)?))
 }
 
-/// What the final states of all islands and their reports come to, in the order of their index.
+/// What the final states of all islands come to, in the order of their index; the slowest evolved for `wall_seconds`.
 pub fn summarise<P: Subject>(
     dir: &RunDir,
     config: &Config,
     problem: &P,
     islands: &[Island<P::Gene>],
     best: (u32, &Champion<P::Gene>),
-    reports: &[Vec<Entry>],
+    wall_seconds: f64,
 ) -> Summary {
-    let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
-    let wall_seconds = reports.iter().map(seconds).fold(0.0, f64::max);
     let (best_island, best) = best;
     let is_walker = config.problem == Kind::Creatures;
     let validation = problem.fresh(&best.individual.genome, None);
@@ -193,25 +192,16 @@ pub fn summarise<P: Subject>(
     }
 }
 
-/// The rows of the metrics: of all islands, ordered by generation, then island.
-pub fn rows(reports: &[Vec<Entry>]) -> Vec<metrics::Row> {
-    let entries = reports.iter().flatten();
-    let mut rows: Vec<_> =
-        entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
-    rows.sort_by_key(|row| (row.generation, row.island));
-    rows
-}
-
-/// Writes what all islands have reported so far as the run's metrics, and returns it, island by island.
+/// Writes what all islands have reported so far as the run's metrics, and says how long the slowest of them took for it,
+/// in seconds.
 ///
 /// # Errors
 /// If the reports cannot be read, or the metrics not written.
-pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Entry>>, StoreError> {
-    let reports: Vec<Vec<Entry>> = (0..config.islands)
-        .map(|island| Ok(RecordLog::read(&dir.reports(island))?.records))
-        .collect::<Result<_, StoreError>>()?;
-    dir.write(&dir.metrics(), |out| metrics::write(&rows(&reports), true, out))?;
-    Ok(reports)
+pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<f64, StoreError> {
+    let mut reports = Reports::of(dir, config.islands)?;
+    let rows = reports.by_ref().map(|row| row.map_err(std::io::Error::other));
+    dir.write(&dir.metrics(), |out| metrics::write(rows, true, out))?;
+    Ok(reports.seconds())
 }
 
 /// The champion that a run keeps, and its island, of all that each island ever had.

@@ -76,10 +76,16 @@ impl Row {
 /// Writes rows as CSV, after a header if `with_header`.
 ///
 /// # Errors
-/// If the output refuses.
-pub fn write(rows: &[Row], with_header: bool, output: impl Write) -> std::io::Result<()> {
+/// If the output refuses, or a row cannot be had.
+pub fn write(
+    rows: impl IntoIterator<Item = std::io::Result<Row>>,
+    with_header: bool,
+    output: impl Write,
+) -> std::io::Result<()> {
     let mut writer = csv::WriterBuilder::new().has_headers(with_header).from_writer(output);
-    rows.iter().try_for_each(|row| writer.serialize(row)).map_err(std::io::Error::other)?;
+    for row in rows {
+        writer.serialize(row?).map_err(std::io::Error::other)?;
+    }
     writer.flush()
 }
 
@@ -115,7 +121,7 @@ mod tests {
         let effort = Effort { evaluations: outcomes.iter().sum(), reused: 0, outcomes };
         let report = Report { island: 0, generation: 0, statistics, effort, immigrants: 0 };
         let mut bytes = Vec::new();
-        write(&[Row::new(&report, 0.0)], true, &mut bytes).expect("memory takes everything");
+        write([Ok(Row::new(&report, 0.0))], true, &mut bytes).expect("memory takes everything");
         let mut table = csv::Reader::from_reader(bytes.as_slice());
         let names = table.headers().expect("it has a header").clone();
         let cells = table.records().next().expect("it has a row").expect("it is whole");
@@ -154,7 +160,7 @@ mod tests {
             seconds: 0.25,
         };
         let mut bytes = Vec::new();
-        write(&[row, row], true, &mut bytes).expect("memory takes everything");
+        write([Ok(row), Ok(row)], true, &mut bytes).expect("memory takes everything");
         let text = String::from_utf8(bytes.clone()).expect("it is text");
         assert!(
             text.contains("1,2,0.30000000000000004,,,0.5,0.25,3,1,2,0,0,1,1,0,0,0,0.25\n"),

@@ -100,9 +100,10 @@ pub fn configs() -> Vec<Vec<u8>> {
 }
 
 pub fn tables() -> Vec<Vec<u8>> {
-    let rows: Vec<Row> = steps().iter().map(|step| Row::new(&step.report, 0.25)).collect();
+    let steps = steps();
+    let rows = steps.iter().map(|step| Ok(Row::new(&step.report, 0.25)));
     let mut table = Vec::new();
-    metrics::write(&rows, true, &mut table).unwrap();
+    metrics::write(rows, true, &mut table).unwrap();
     vec![table]
 }
 

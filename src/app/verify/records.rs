@@ -6,6 +6,7 @@ use super::retrial::{Claim, Measure};
 use super::rules::Terms;
 use crate::archipelago::{Arrivals, Births, Champion, Island, Outbox};
 use crate::evolution::{Fitness, Gene, Individual};
+use crate::formats::metrics;
 use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
 use std::ops::RangeInclusive;
@@ -42,6 +43,21 @@ impl<G: Gene> Records<G> {
         (0..terms.config.islands).for_each(|island| reader.island(island, &mut records));
         let checks = reader.checks(&records);
         (records, checks)
+    }
+
+    /// The rows of the metrics: of all islands, ordered by generation, then island.
+    pub fn rows(&self) -> Vec<metrics::Row> {
+        let entries = self.reports.iter().flatten();
+        let mut rows: Vec<_> =
+            entries.map(|entry| metrics::Row::new(&entry.report, entry.seconds)).collect();
+        rows.sort_by_key(|row| (row.generation, row.island));
+        rows
+    }
+
+    /// How long the slowest island evolved, in seconds.
+    pub fn seconds(&self) -> f64 {
+        let seconds = |entries: &Vec<Entry>| entries.iter().map(|entry| entry.seconds).sum();
+        self.reports.iter().map(seconds).fold(0.0, f64::max)
     }
 
     /// The final states, if all are there.
