@@ -9,7 +9,7 @@ use islands::creature::{Creature, Profile};
 use islands::evolution::Outcome;
 use islands::problems::Task;
 use islands::simulation::stability::Ledger;
-use islands::simulation::{Engine, Measurement, Trajectory, Trial, film};
+use islands::simulation::{Engine, Guards, Measurement, Trajectory, Trial, film};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -61,7 +61,8 @@ type Creatures = [(Vec<islands::creature::Gene>, Creature)];
 
 fn try_all(creatures: &Creatures, steps_per_s: u32, engine: Engine) -> Vec<Tried> {
     // The ledger is read here, and must refuse nobody before.
-    let trial = Trial { steps_per_s, keeps_ledger: false, ..Task::Walk.trial() };
+    let guards = Guards { keeps_ledger: false, ..Guards::ALL };
+    let trial = Trial { steps_per_s, guards, ..Task::Walk.trial() };
     let try_out = |(_, creature): &(_, Creature)| {
         let (result, film) = film(creature, &trial, engine);
         Tried { result, excess_m_s: excess_m_s(creature, &trial, &film) }

@@ -41,8 +41,8 @@ impl ChangeArgs {
 /// How a genome file is read and tried.
 #[derive(Debug, Clone, Args)]
 pub struct TrialArgs {
-    /// What the creature has to do: walk, travel, course or climb
-    #[arg(long, default_value_t)]
+    /// What the creature has to do.
+    #[arg(long, default_value_t, help = format!("What the creature has to do: {}", Task::list()))]
     pub task: Task,
     #[command(flatten)]
     pub read: ReadArgs,

@@ -260,8 +260,8 @@ pub struct ReplayArgs {
     /// Whether a viewer opens: spawn or off
     #[arg(long, value_name = "HOW", default_value = "off")]
     pub view: Watching,
-    /// What the creatures have to do: walk, travel, course or climb [default: walk, or as in the run]
-    #[arg(long)]
+    /// What the creatures have to do.
+    #[arg(long, help = format!("What the creatures have to do: {} [default: walk, or as in the run]", Task::list()))]
     pub task: Option<Task>,
     /// How genes are read: native, lecture or coursework [default: native, or as in the run]
     #[arg(long)]

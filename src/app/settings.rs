@@ -30,9 +30,8 @@ pub struct SettingArgs {
     pub population: Option<usize>,
     #[command(flatten)]
     pub problem: ProblemArgs,
-    /// What creatures have to do: walk (get away), travel (keep moving), course (as the course
-    /// program measures) or climb (up its mountain) [default: walk]
-    #[arg(long)]
+    /// What creatures have to do.
+    #[arg(long, help = format!("What creatures have to do: {} [default: walk]", Task::list()))]
     pub task: Option<Task>,
     /// How genes are read: native, lecture or coursework [default: native]
     #[arg(long)]

@@ -1,7 +1,7 @@
 //! Creatures that move: a genome is worth how far its body gets.
 
 use super::robustness::{RobustBy, Robustness};
-use super::task::Task;
+use super::tasks::Task;
 use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
 use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem};
@@ -225,7 +225,7 @@ impl Problem for Locomotion {
     }
 
     fn unit(&self) -> &'static str {
-        "m"
+        self.task.unit()
     }
 }
 

@@ -1,6 +1,6 @@
 //! What can be evolved.
 //!
-//! [`locomotion`] evolves creatures that move: [`task`] says what they have to do, [`progress`] how far one got,
+//! [`locomotion`] evolves creatures that move: [`tasks`] say what they have to do, [`progress`] how far one got,
 //! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
 //! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`],
 //! and [`bits`] strings of ones and zeros, both of a [`fixed`] length. [`founded`] begins with given genomes.
@@ -76,7 +76,7 @@ pub mod locomotion;
 pub mod progress;
 pub mod robustness;
 mod scoring;
-pub mod task;
+pub mod tasks;
 pub mod validation;
 
 pub use benchmark::{Benchmark, Real};
@@ -85,5 +85,5 @@ pub use founded::Founded;
 pub use functions::Function;
 pub use locomotion::Locomotion;
 pub use robustness::{RobustBy, Robustness};
-pub use task::Task;
+pub use tasks::Task;
 pub use validation::Validation;

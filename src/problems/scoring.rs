@@ -2,7 +2,6 @@
 //! score holds in fresh trials.
 
 use super::locomotion::Locomotion;
-use super::task::Task;
 use super::validation::Validation;
 use crate::creature::Creature;
 use crate::evolution::{Fitness, Hurdles, LOOKS, Outcome, sharing};
@@ -185,9 +184,9 @@ impl Locomotion {
         self.robustness.trials(usual).map(|trial| self.unpushed(trial))
     }
 
-    /// Nobody is pushed where distance is all that counts, however it came about.
+    /// Nobody is pushed where that would be a free gain.
     fn unpushed(&self, trial: Trial) -> Trial {
-        if self.task == Task::Course { trial.unpushed() } else { trial }
+        if self.task.is_pushed() { trial } else { trial.unpushed() }
     }
 
     /// So many fresh trials in each engine say what a creature is worth: four times as many as a score has.

@@ -10,7 +10,7 @@ use super::trial::Trial;
 use super::world::{self, World};
 use crate::creature::Creature;
 use crate::evolution::Outcome;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Isometry3, Vector2, Vector3};
 
 /// Who watches a trial.
 pub trait Observer {
@@ -45,6 +45,7 @@ struct Scored {
     centre_first_m: Vector3<f64>,
     track_m: Vec<Vector2<f64>>,
     heights_m: Vec<f64>,
+    poses: Vec<Vec<Isometry3<f64>>>,
     ledger: Ledger,
     actuators: Actuators,
 }
@@ -63,7 +64,7 @@ impl<'a> Attempt<'a> {
             0 => Phase::Scored(Box::new(Scored::new(world, &assembly, creature, trial))),
             _ => Phase::Settling { round: 1, calm: Calm::new(trial) },
         };
-        let guard = Guard::new(&assembly, creature, trial.ground);
+        let guard = Guard::new(&assembly, creature, trial);
         let root_first_m = None;
         Self { creature, trial: *trial, assembly, guard, step: 0, root_first_m, phase }
     }
@@ -137,6 +138,7 @@ impl<'a> Attempt<'a> {
             path_m: track_m.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum(),
             track_m,
             heights_m: std::mem::take(&mut scored.heights_m),
+            poses: std::mem::take(&mut scored.poses),
             extent_m: self.creature.morphology.extent_m(),
         }
     }
@@ -144,17 +146,18 @@ impl<'a> Attempt<'a> {
 
 impl Scored {
     fn new(world: &impl World, assembly: &Assembly, creature: &Creature, trial: &Trial) -> Self {
-        let centre_first_m = world::centre_of_mass(world, assembly);
+        let poses = world::part_poses(world, assembly);
+        let centre_first_m = world::centre_of(&poses, assembly);
         let mut track_m = Vec::with_capacity(trial.samples() + 1);
         track_m.push(centre_first_m.xy());
         let (sample_steps, standing) = (trial.sample_steps(), Vector3::zeros());
+        let heights_m = height_m(&poses, assembly, trial.ground, &centre_first_m);
         Self {
             steps: 0,
             centre_first_m,
             track_m,
-            heights_m: height_m(world, assembly, trial.ground, &centre_first_m)
-                .into_iter()
-                .collect(),
+            heights_m: heights_m.into_iter().collect(),
+            poses: vec![poses],
             ledger: Ledger::new(trial, sample_steps, centre_first_m, standing),
             actuators: Actuators::new(&creature.controller, assembly),
         }
@@ -194,10 +197,12 @@ impl Scored {
         assembly: &Assembly,
         world: &impl World,
     ) -> Result<(), Outcome> {
-        let centre_m = world::centre_of_mass(world, assembly);
+        let poses = world::part_poses(world, assembly);
+        let centre_m = world::centre_of(&poses, assembly);
         self.track_m.push(centre_m.xy());
-        self.heights_m.extend(height_m(world, assembly, trial.ground, &centre_m));
-        if trial.keeps_ledger { self.ledger.enter(centre_m) } else { Ok(()) }
+        self.heights_m.extend(height_m(&poses, assembly, trial.ground, &centre_m));
+        self.poses.push(poses);
+        if trial.guards.keeps_ledger { self.ledger.enter(centre_m) } else { Ok(()) }
     }
 }
 
@@ -216,11 +221,11 @@ fn check(
 
 /// How high the body is on a terrain, given its centre of mass.
 fn height_m(
-    world: &impl World,
+    poses: &[Isometry3<f64>],
     assembly: &Assembly,
     ground: Ground,
     centre_m: &Vector3<f64>,
 ) -> Option<f64> {
     let below_m = ground.terrain()?.height_m(centre_m.x, centre_m.y);
-    Some(world::lowest_m(world, assembly).min(below_m))
+    Some(world::lowest_m(poses, assembly).min(below_m))
 }

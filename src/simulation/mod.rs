@@ -28,7 +28,7 @@ pub use engine::Engine;
 pub use perturbation::Perturbation;
 pub use terrain::{Ground, Terrain};
 pub use trajectory::{Pose, Trajectory};
-pub use trial::{Start, Trial};
+pub use trial::{Guards, Start, Trial};
 
 use crate::creature::Creature;
 use crate::evolution::Outcome;
@@ -36,7 +36,7 @@ pub use abreast::{Abreast, at_a_time, simulate_abreast, simulate_each};
 use assembly::Assembly;
 use attempt::{Attempt, Observer};
 use featherstone::{FeatherstoneWorld, Relief};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Isometry3, Vector2, Vector3};
 use rapier::RapierWorld;
 use world::{Stepper, World};
 
@@ -60,6 +60,8 @@ pub struct Measurement {
     /// On a terrain, the height of the body's lowest point at the same moments, but at most that of the ground below
     /// its centre of mass, in metres: what is in the air, or leans on a wall, is no higher than what it is above.
     pub heights_m: Vec<f64>,
+    /// Where every part was at the same moments: a list a moment, in the order of the body's [`assembly`].
+    pub poses: Vec<Vec<Isometry3<f64>>>,
     /// How far the body reaches from its root at rest, in metres.
     pub extent_m: f64,
 }

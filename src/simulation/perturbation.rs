@@ -113,7 +113,7 @@ fn between([from, to]: [f64; 2], rng: &mut Stream) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::terrain::mountain;
-    use super::super::trial::Start;
+    use super::super::trial::{Guards, Start};
     use super::*;
 
     const TRIAL: Trial = Trial {
@@ -124,7 +124,7 @@ mod tests {
         start: Start::LowestAt(0.0),
         settle_s: 0.5,
         scored_s: 8.0,
-        keeps_ledger: true,
+        guards: Guards::ALL,
     };
 
     #[test]

@@ -2,23 +2,21 @@
 
 use super::assembly::Assembly;
 use super::terrain::Ground;
-use super::trial::Trial;
+use super::trial::{Guards, Trial};
 use super::world::World;
 use crate::creature::Creature;
 use crate::evolution::Outcome;
 use nalgebra::{Vector2, Vector3};
-
-/// No healthy link is ever this fast, in m/s: the 99th percentile of random bodies is 6 to 7.
-const SPEED_MAX_M_S: f64 = 50.0;
 
 /// A link may rise above where it began by this many body lengths…
 const RISE_MAX_EXTENTS: f64 = 2.0;
 /// … and this much, in metres.
 const RISE_MAX_M: f64 = 1.0;
 
-/// The bounds of one body. Heights are above the ground: the highest that is no farther away than the body reaches, so
+/// The bounds of one body in a trial. Heights are above the ground: the highest that is no farther away than the body reaches, so
 /// that who walks over a cliff was not launched.
 pub struct Guard {
+    guards: Guards,
     height_max_m: f64,
     ground: Ground,
     extent_m: f64,
@@ -26,14 +24,15 @@ pub struct Guard {
 
 impl Guard {
     /// The bounds of a body that was just put together.
-    pub fn new(assembly: &Assembly, creature: &Creature, ground: Ground) -> Self {
+    pub fn new(assembly: &Assembly, creature: &Creature, trial: &Trial) -> Self {
+        let Trial { ground, guards, .. } = *trial;
         let extent_m = creature.morphology.extent_m();
         let positions_m = assembly.parts.iter().map(|part| part.world_from_part.translation.vector);
         // Over the ground below: over a cliff beside it, it may be far below zero, and higher as soon as it walks off.
         let heights = positions_m.map(|at_m| at_m.z - ground.height_m(at_m.x, at_m.y));
         let start_m = heights.fold(f64::NEG_INFINITY, f64::max);
         let rise_m = RISE_MAX_EXTENTS * extent_m + RISE_MAX_M;
-        Self { height_max_m: start_m + rise_m, ground, extent_m }
+        Self { guards, height_max_m: start_m + rise_m, ground, extent_m }
     }
 
     fn height_m(&self, position_m: &Vector3<f64>) -> f64 {
@@ -69,10 +68,11 @@ impl Guard {
             if !(position_m.sum().is_finite() && speed_m_s.is_finite()) {
                 return Err(Outcome::NotFinite);
             }
-            if speed_m_s > SPEED_MAX_M_S {
+            if speed_m_s > self.guards.speed_m_s_max {
                 return Err(Outcome::TooFast);
             }
-            if self.height_m(&position_m) > self.height_max_m {
+            let refuses_launches = self.guards.refuses_launches;
+            if refuses_launches && self.height_m(&position_m) > self.height_max_m {
                 return Err(Outcome::Launched);
             }
         }
@@ -93,7 +93,7 @@ const EXCESS_MAX_M_S: f64 = 0.1;
 /// nothing but the positions that the score is made of: |Δv_h| ≤ µ (Δv_z + g T). What is above is the solver's.
 ///
 /// On a terrain there is no such bound: the ground pushes along its slope, a wall along the level as hard as a body
-/// pushes it, and a mean over a tenth of a second does not tell which of them it touched. [`Trial::keeps_ledger`] is
+/// pushes it, and a mean over a tenth of a second does not tell which of them it touched. [`Guards::keeps_ledger`] is
 /// off there.
 ///
 /// No ledger of energy is kept. Native motors may do a kilowatt each (126 N·m at 8 rad/s), so that the bound would be
@@ -170,7 +170,7 @@ mod tests {
             start: Start::LowestAt(0.0),
             settle_s: 0.0,
             scored_s: 2.0,
-            keeps_ledger: true,
+            guards: Guards::ALL,
         }
     }
 

@@ -23,9 +23,29 @@ pub struct Trial {
     pub settle_s: f64,
     /// Time that is scored, in seconds.
     pub scored_s: f64,
-    /// Whether a body that gains momentum out of nothing is refused.
+    /// What it is refused for.
+    pub guards: Guards,
+}
+
+/// What a body is refused for in a trial, because no body does it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guards {
+    /// A part is faster than this, in m/s.
+    pub speed_m_s_max: f64,
+    /// A part is higher above the ground than a jump explains.
+    pub refuses_launches: bool,
+    /// The body gains momentum out of nothing.
     pub keeps_ledger: bool,
 }
+
+impl Guards {
+    /// All of them.
+    pub const ALL: Self =
+        Self { speed_m_s_max: SPEED_M_S_MAX, refuses_launches: true, keeps_ledger: true };
+}
+
+/// No healthy link is ever this fast, in m/s: the 99th percentile of random bodies is 6 to 7.
+const SPEED_M_S_MAX: f64 = 50.0;
 
 /// Where a body begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +71,8 @@ pub const GRIP: f64 = FRICTION * FRICTION;
 impl Trial {
     /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
     pub fn on(self, terrain: &'static Terrain) -> Self {
-        Self { ground: Ground::Terrain(terrain), keeps_ledger: false, ..self }
+        let guards = Guards { keeps_ledger: false, ..self.guards };
+        Self { ground: Ground::Terrain(terrain), guards, ..self }
     }
 
     /// The simulated time after a number of steps, in seconds.

@@ -42,22 +42,31 @@ pub trait World {
     fn kick(&mut self, velocity_m_s: Vector3<f64>, turn_rad_s: Vector3<f64>);
 }
 
+/// Where every part is.
+pub fn part_poses(world: &(impl World + ?Sized), assembly: &Assembly) -> Vec<Isometry3<f64>> {
+    (0..assembly.parts.len()).map(|part| world.world_from_part(part)).collect()
+}
+
 /// The centre of mass of the whole body, in metres.
 pub fn centre_of_mass(world: &(impl World + ?Sized), assembly: &Assembly) -> Vector3<f64> {
-    let parts = assembly.parts.iter().enumerate();
+    centre_of(&part_poses(world, assembly), assembly)
+}
+
+/// The centre of mass of a body whose parts are in these places, in metres.
+pub fn centre_of(poses: &[Isometry3<f64>], assembly: &Assembly) -> Vector3<f64> {
+    let parts = assembly.parts.iter().zip(poses);
     let (moment, mass_kg) =
-        parts.fold((Vector3::zeros(), 0.0), |(moment, mass_kg), (index, part)| {
-            let centre_m = world.world_from_part(index) * Point3::from(part.centre_m);
+        parts.fold((Vector3::zeros(), 0.0), |(moment, mass_kg), (part, world_from_part)| {
+            let centre_m = world_from_part * Point3::from(part.centre_m);
             (moment + part.mass_kg * centre_m.coords, mass_kg + part.mass_kg)
         });
     moment / mass_kg
 }
 
-/// The height of the lowest point of the body, in metres.
-pub fn lowest_m(world: &(impl World + ?Sized), assembly: &Assembly) -> f64 {
-    let parts = assembly.parts.iter().enumerate();
-    let bottoms = parts.flat_map(|(index, part)| {
-        let world_from_part = world.world_from_part(index);
+/// The height of the lowest point of a body whose parts are in these places, in metres.
+pub fn lowest_m(poses: &[Isometry3<f64>], assembly: &Assembly) -> f64 {
+    let parts = assembly.parts.iter().zip(poses);
+    let bottoms = parts.flat_map(|(part, world_from_part)| {
         part.solids.iter().map(move |solid| {
             let pose = world_from_part * solid.part_from_solid;
             pose.translation.z - solid.shape.reach_m(&pose.rotation, &Vector3::z())

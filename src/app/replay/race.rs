@@ -6,7 +6,7 @@ use super::super::console::print;
 use super::super::genomes::Specimen;
 use super::super::subject::Subject;
 use super::film::{Studio, recorder};
-use crate::evolution::Fitness;
+use crate::evolution::{Fitness, Problem};
 use crate::problems::Locomotion;
 use crate::view::{Clip, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
     let card = RunCard {
         program: Program::Race,
         lanes: lanes.collect(),
-        unit: "m".to_owned(),
+        unit: studio.problem.unit().to_owned(),
         description_markdown: description(&studio, paths, scores),
         topology_edges: Vec::new(),
         has_stage: true,

@@ -1,6 +1,6 @@
 //! What nothing acts on from outside keeps its momentum and its spin.
 
-use super::super::trial::{Start, Trial};
+use super::super::trial::{Guards, Start, Trial};
 use super::super::{Engine, simulate};
 use super::SPACE;
 use super::bodies::limbs;
@@ -57,7 +57,7 @@ fn nothing_that_a_body_does_in_empty_space_moves_its_centre_of_mass() {
     (fixed.0[5], fixed.0[6]) = (0.9, 0.0);
     (limb.0[5], limb.0[6], limb.0[15]) = (0.1, 0.0, 0.9);
     let creature = express(&[root, fixed, limb], Profile::Native, 8).unwrap();
-    let trial = Trial { start: Start::RootAt(10.0), scored_s: 4.0, keeps_ledger: true, ..SPACE };
+    let trial = Trial { start: Start::RootAt(10.0), scored_s: 4.0, guards: Guards::ALL, ..SPACE };
     for engine in Engine::ALL {
         let measured = simulate(&creature, &trial, engine).unwrap();
         let root_m = (measured.root_last_m - measured.root_first_m).norm();

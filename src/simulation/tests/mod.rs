@@ -20,7 +20,7 @@ mod spinning;
 
 use super::perturbation::Perturbation;
 use super::terrain::Ground;
-use super::trial::{Start, Trial};
+use super::trial::{Guards, Start, Trial};
 
 /// Acceleration of gravity in these tests, in m/s².
 const GRAVITY_M_S2: f64 = 10.0;
@@ -34,7 +34,7 @@ const TRIAL: Trial = Trial {
     start: Start::LowestAt(0.0),
     settle_s: 0.0,
     scored_s: 0.0,
-    keeps_ledger: false,
+    guards: Guards { keeps_ledger: false, ..Guards::ALL },
 };
 
 /// A body on which nothing acts: without gravity, and out of the ground's reach.

@@ -2,7 +2,7 @@
 
 use super::super::assembly::Assembly;
 use super::super::perturbation::Perturbation;
-use super::super::trial::{GRIP, Start, Trial};
+use super::super::trial::{GRIP, Guards, Start, Trial};
 use super::super::{Engine, Measurement, simulate};
 use super::bodies::{Body, Hinge, limbs, sled};
 use super::lab::Lab;
@@ -123,7 +123,7 @@ fn a_body_falls_as_fast_at_all_steps() {
 }
 
 fn try_out(engine: Engine, perturbation: Perturbation) -> Measurement {
-    let trial = Trial { settle_s: 0.5, scored_s: 4.0, keeps_ledger: true, ..TRIAL };
+    let trial = Trial { settle_s: 0.5, scored_s: 4.0, guards: Guards::ALL, ..TRIAL };
     let measured = simulate(&sled().build(), &perturbed(trial, perturbation), engine);
     measured.unwrap_or_else(|outcome| panic!("{engine}: {outcome}"))
 }

@@ -17,7 +17,7 @@
 use islands::creature::{
     Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
-use islands::simulation::{self, Engine, Ground, Perturbation, Start, Trial};
+use islands::simulation::{self, Engine, Ground, Guards, Perturbation, Start, Trial};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 
@@ -107,7 +107,7 @@ impl Body {
             start: Start::RootAt(self.z_lift),
             settle_s: 0.0,
             scored_s: 10.0,
-            keeps_ledger: false,
+            guards: Guards { keeps_ledger: false, ..Guards::ALL },
         }
     }
 

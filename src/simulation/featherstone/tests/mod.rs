@@ -9,7 +9,7 @@ use crate::creature::{Gene, Profile, express};
 use crate::evolution::Outcome;
 use crate::simulation::perturbation::Perturbation;
 use crate::simulation::terrain::Ground;
-use crate::simulation::trial::Start;
+use crate::simulation::trial::{Guards, Start};
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -23,7 +23,7 @@ const TRIAL: Trial = Trial {
     start: Start::LowestAt(0.1),
     settle_s: 0.0,
     scored_s: 1.0,
-    keeps_ledger: true,
+    guards: Guards::ALL,
 };
 
 type Motion = Spatial<Alone>;

@@ -1,0 +1,139 @@
+//! What creatures may have to do: each task is a file, and all of them are listed once, in [`Task`].
+//!
+//! A further task is a file beside these with a [`Definition`], and a line of the list. Flags, help, refusals and
+//! reports follow from the list.
+
+use crate::choice;
+use crate::simulation::{Engine, Measurement, Trial};
+use serde::{Deserialize, Serialize};
+
+/// All that there is to say of a task.
+pub struct Definition {
+    /// The aim in a few words, as `--help` lists it behind the name.
+    pub aim: &'static str,
+    /// The unit of the score.
+    pub unit: &'static str,
+    /// How bodies are tried in any engine: the ground, which is also what is drawn, the start, the times, and the
+    /// guards against what no body does.
+    pub trial: fn() -> Trial,
+    /// Steps a second in our own engine; none if it needs as many as others.
+    pub own_steps_per_s: Option<u32>,
+    /// Whether perturbed trials push the body. They must not where a push would be a free gain.
+    pub is_pushed: bool,
+    /// What a measurement is worth, in the unit; at least 0 for a body that does nothing.
+    pub score: fn(&Measurement) -> f64,
+}
+
+/// Makes the modules of the tasks, and the enum of them with their names.
+macro_rules! tasks {
+    ($($(#[$attribute:meta])* $variant:ident => $module:ident,)+) => {
+        $(mod $module;)+
+
+        /// What a creature has to do.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Task {
+            $($(#[$attribute])* $variant,)+
+        }
+
+        impl Task {
+            /// Every task.
+            pub const ALL: [Task; [$(stringify!($module)),+].len()] = [$(Task::$variant),+];
+
+            /// All that there is to say of it.
+            fn definition(self) -> &'static Definition {
+                match self {
+                    $(Task::$variant => &$module::DEFINITION,)+
+                }
+            }
+
+            fn name(self) -> &'static str {
+                match self {
+                    $(Task::$variant => stringify!($module),)+
+                }
+            }
+        }
+    };
+}
+
+tasks! {
+    /// To get away from where it began.
+    #[default]
+    Walk => walk,
+    /// To keep moving.
+    Travel => travel,
+    /// What the course program has bodies do, for comparison.
+    Course => course,
+    /// To get up a mountain.
+    Climb => climb,
+}
+
+impl Task {
+    /// Every task with its aim, as `--help` lists them.
+    pub fn list() -> String {
+        let lines = Task::ALL.map(|task| format!("{task} ({})", task.definition().aim));
+        let [first @ .., last] = &lines;
+        format!("{} or {last}", first.join(", "))
+    }
+
+    /// How bodies are tried in an engine: with as few steps a second as it needs.
+    ///
+    /// Of 300 random native bodies (`cargo bench --bench survey -- rates`) half as many steps changed what our own engine
+    /// gave at 480 Hz no more than 960 Hz did (rank correlations of walk 0.84 and 0.83). What evolved in such trials held
+    /// in other engines better than what evolved at 240 Hz: benches/RESULTS.md. On terrains nobody has measured it.
+    pub fn trial_in(self, engine: Engine) -> Trial {
+        let trial = self.trial();
+        match (self.definition().own_steps_per_s, engine) {
+            (Some(steps_per_s), Engine::Featherstone) => Trial { steps_per_s, ..trial },
+            _ => trial,
+        }
+    }
+
+    /// How bodies are tried in any engine.
+    pub fn trial(self) -> Trial {
+        (self.definition().trial)()
+    }
+
+    /// Whether perturbed trials push the body.
+    pub fn is_pushed(self) -> bool {
+        self.definition().is_pushed
+    }
+
+    /// What a measurement is worth.
+    pub fn score(self, measured: &Measurement) -> f64 {
+        (self.definition().score)(measured)
+    }
+
+    /// The unit of the score.
+    pub fn unit(self) -> &'static str {
+        self.definition().unit
+    }
+}
+
+impl std::fmt::Display for Task {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl std::str::FromStr for Task {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        choice::named("task", &Task::ALL, text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_task_is_listed_by_its_name_with_its_aim_and_read_by_it() {
+        for task in Task::ALL {
+            assert!(Task::list().contains(&format!("{task} (")), "{}", Task::list());
+            assert_eq!(task.to_string().parse(), Ok(task));
+            assert_eq!(serde_json::to_value(task).unwrap(), task.to_string());
+        }
+    }
+}
