@@ -6,8 +6,8 @@
 use super::assembly::Assembly;
 use super::attempt::Attempt;
 use super::engine::Engine;
-use super::featherstone::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
 use super::featherstone::{FeatherstoneWorld, Footing, Plane, Relief};
+use super::lanes::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
 use super::terrain::Ground;
 use super::trial::Trial;
 use super::{Measurement, simulate};

@@ -13,6 +13,7 @@ pub mod assembly;
 mod attempt;
 pub mod engine;
 mod featherstone;
+mod lanes;
 pub mod perturbation;
 mod rapier;
 pub mod settling;

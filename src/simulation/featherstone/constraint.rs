@@ -8,9 +8,9 @@
 
 use super::contact::{Facing, Touch};
 use super::factor::Factor;
-use super::lanes::{Everywhere, Mask, Real, Single, Vec3};
 use super::spatial::Spatial;
-use super::width::Width;
+use crate::simulation::lanes::width::Width;
+use crate::simulation::lanes::{Everywhere, Mask, Real, Single, Vec3};
 use std::ops::Range;
 
 /// The share of a penetration that a step takes back (Baumgarte 1972).

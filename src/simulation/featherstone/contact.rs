@@ -4,10 +4,10 @@
 //! and the two between them; a sphere with its lowest point, a capsule with those of its ends.
 
 use super::kinematics::Place;
-use super::lanes::{Everywhere, Mask, Real, Vec3};
 use super::model::{Outline, Surface};
 use super::spatial::{Mat3, Spatial};
-use super::width::Width;
+use crate::simulation::lanes::width::Width;
+use crate::simulation::lanes::{Everywhere, Mask, Real, Vec3};
 use nalgebra::Vector3;
 
 /// The most points that a solid touches a plane with.

@@ -15,10 +15,10 @@
 //! factor is zero there.
 
 use super::kinematics::Place;
-use super::lanes::{Everywhere, Mask, Real};
 use super::model::Model;
 use super::spatial::{Inertia, Spatial};
-use super::width::Width;
+use crate::simulation::lanes::width::Width;
+use crate::simulation::lanes::{Everywhere, Mask, Real};
 
 /// The factor of one moment.
 #[derive(Clone)]

@@ -3,10 +3,10 @@
 //! Angles are never needed, so none is kept: a hinge is a unit complex number and the root a unit quaternion, each
 //! turned by the Cayley map, which takes no transcendental function and keeps the length of what it turns.
 
-use super::lanes::{Everywhere, Real, Vec3};
 use super::model::{Link, Model};
 use super::spatial::{Mat3, RigidInertia, Spatial};
-use super::width::{Alone, Width};
+use crate::simulation::lanes::width::{Alone, Width};
+use crate::simulation::lanes::{Everywhere, Real, Vec3};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 /// The configuration of a body.

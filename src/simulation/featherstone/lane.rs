@@ -1,11 +1,11 @@
 //! One world of several that go side by side: what can be seen of it and done to it.
 
 use super::contact::Footing;
-use super::lanes::Everywhere;
 use super::spatial::Spatial;
-use super::width::{Alone, Width};
 use super::{FeatherstoneWorld, kinematics};
 use crate::evolution::Outcome;
+use crate::simulation::lanes::Everywhere;
+use crate::simulation::lanes::width::{Alone, Width};
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{Isometry3, Translation3, Vector3};
 

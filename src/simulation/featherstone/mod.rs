@@ -34,7 +34,7 @@
 //!
 //! # Several worlds at a time
 //!
-//! A world here is several side by side ([`lanes`]), as many as a [`width`] has, all with the same body: the trials of
+//! A world here is several side by side ([`lanes`](super::lanes)), as many as a [`Width`] has, all with the same body: the trials of
 //! a body differ in their numbers alone. Where they part (a contact that one of them has, a hinge that is loose in
 //! some) all do what any of them needs, and keep it to those that need it. That is what eight at a time lose: eight
 //! random trials of a body have 2.4 times as many points in contact as one of them, and sweep twice as often.
@@ -44,7 +44,6 @@ mod contact;
 mod factor;
 mod kinematics;
 mod lane;
-mod lanes;
 mod model;
 mod relief;
 mod solver;
@@ -52,22 +51,21 @@ mod spatial;
 mod step;
 #[cfg(test)]
 mod tests;
-pub mod width;
 
 use super::assembly::Assembly;
+use super::lanes::width::{Alone, Width};
+use super::lanes::{Everywhere, Mask, Real, Single};
 use super::trial::Trial;
 use contact::Touch;
 pub use contact::{Footing, Plane};
 use factor::{Factor, Swing, Whitened};
 use kinematics::{Configuration, Place};
 use lane::Lane;
-use lanes::{Everywhere, Mask, Real, Single};
 use model::Model;
 pub use relief::Relief;
 use solver::Solver;
 use spatial::Spatial;
 use step::Step;
-use width::{Alone, Width};
 
 /// A body in several worlds of our own. Spatial vectors are about the root's centre of mass half a step ahead, along the
 /// world's axes; all lists are by link.

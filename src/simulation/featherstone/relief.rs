@@ -7,10 +7,10 @@
 
 use super::super::terrain::Terrain;
 use super::contact::{Facing, Footing, MARGIN_M, Stance, Touch};
-use super::lanes::{Everywhere, Real, Vec3};
 use super::model::{Outline, Surface};
 use super::spatial::{Mat3, Spatial};
-use super::width::Alone;
+use crate::simulation::lanes::width::Alone;
+use crate::simulation::lanes::{Everywhere, Real, Vec3};
 use nalgebra::{Vector2, Vector3};
 
 /// Four points at each of four places along the axis of a solid.

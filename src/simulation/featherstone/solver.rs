@@ -7,9 +7,9 @@
 use super::constraint::{Change, Contact, Entry, MotorRow, Root};
 use super::contact::{Facing, Touch};
 use super::factor::{Factor, Whitened};
-use super::lanes::{Everywhere, Mask, Real, Single};
 use super::spatial::Spatial;
-use super::width::Width;
+use crate::simulation::lanes::width::Width;
+use crate::simulation::lanes::{Everywhere, Mask, Real, Single};
 
 /// A sweep that corrects no velocity by more than this, in m/s or rad/s, is the last one: half a millimetre in a
 /// second is nothing that a body does.

@@ -3,8 +3,8 @@
 //! With one point for the whole body nothing has to be carried from link to link: velocities, wrenches and
 //! inertias of different parts are simply added.
 
-use super::lanes::{Everywhere, Real, Vec3};
-use super::width::{Alone, Width};
+use crate::simulation::lanes::width::{Alone, Width};
+use crate::simulation::lanes::{Everywhere, Real, Vec3};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 

@@ -3,9 +3,9 @@
 use super::FeatherstoneWorld;
 use super::contact::{Facing, Footing, Stance};
 use super::factor::Swing;
-use super::lanes::{Everywhere, Real, Vec3};
 use super::spatial::Spatial;
-use super::width::{Width, Work};
+use crate::simulation::lanes::width::{Width, Work};
+use crate::simulation::lanes::{Everywhere, Real, Vec3};
 
 /// The last of so many attempts at a step lets all motors slip.
 const ATTEMPTS_MAX: usize = 4;

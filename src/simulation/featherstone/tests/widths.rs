@@ -3,8 +3,8 @@
 use super::TRIAL;
 use crate::creature::{Creature, Gene, Profile, express};
 use crate::evolution::Outcome;
-use crate::simulation::featherstone::lanes::Everywhere;
-use crate::simulation::featherstone::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
+use crate::simulation::lanes::Everywhere;
+use crate::simulation::lanes::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
 use crate::simulation::{
     Abreast, Engine, Measurement, Start, Trial, simulate, simulate_abreast, terrain,
 };

@@ -5,9 +5,11 @@
 //! none joins a product and a sum, and each lane of a result has the bits that it would have alone; so how many go
 //! side by side changes no result.
 
-use super::width::{Alone, Masks, Numbers, Width};
+pub mod width;
+
 use nalgebra::Vector3;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+use width::{Alone, Masks, Numbers, Width};
 
 /// A number in each world.
 #[derive(Clone, Copy)]
