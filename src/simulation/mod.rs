@@ -14,6 +14,7 @@ mod attempt;
 pub mod engine;
 mod featherstone;
 mod lanes;
+pub mod lattice;
 pub mod perturbation;
 mod rapier;
 pub mod settling;

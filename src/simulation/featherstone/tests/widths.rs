@@ -4,7 +4,7 @@ use super::TRIAL;
 use crate::creature::{Creature, Gene, Profile, express};
 use crate::evolution::Outcome;
 use crate::simulation::lanes::Everywhere;
-use crate::simulation::lanes::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
+use crate::simulation::lanes::width::{Alone, Avx2, Avx512, Pair, Width, avx2, avx512, pair};
 use crate::simulation::{
     Abreast, Engine, Measurement, Start, Trial, simulate, simulate_abreast, terrain,
 };
@@ -104,6 +104,9 @@ fn every_width_works_as_one_number_does() {
         let (a, b): (Vec<f64>, Vec<f64>) = (0..8).map(|_| (draw(), draw())).unzip();
         let alone = |lane: usize| worked(Alone, &a[lane..=lane], &b[lane..=lane]).remove(0);
         let expected: Vec<_> = (0..8).map(alone).collect();
+        if let Some(pair) = pair() {
+            assert_eq!(worked::<Pair>(pair, &a[..2], &b[..2]), expected[..2]);
+        }
         if let Some(avx2) = avx2() {
             assert_eq!(worked::<Avx2>(avx2, &a[..4], &b[..4]), expected[..4]);
         }

@@ -2,22 +2,36 @@
 //!
 //! [`Alone`] is one plain number, on any processor. On x86 there is AVX2 for four lanes and AVX-512 for eight, by the
 //! tokens of `pulp`: who has one has the instructions. All round alike (IEEE 754), so that a lane has the same bits in
-//! each of them. Two lanes, which every processor of 64 bits has, were no faster than one.
+//! each of them. [`Pair`] is the two lanes that every x86 of 64 bits has: articulated bodies are no faster in them than in
+//! one, lattices are.
 
 mod alone;
+#[cfg(target_arch = "x86_64")]
+mod pair;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use alone::Alone;
 #[cfg(target_arch = "x86_64")]
+pub use pair::{Pair, pair};
+#[cfg(target_arch = "x86_64")]
 pub use x86::{Avx2, Avx512, avx2, avx512};
 
+/// Nothing that other processors have.
+#[cfg(not(target_arch = "x86_64"))]
+pub type Pair = Alone;
 /// Nothing that other processors have.
 #[cfg(not(target_arch = "x86_64"))]
 pub type Avx2 = Alone;
 /// Nothing that other processors have.
 #[cfg(not(target_arch = "x86_64"))]
 pub type Avx512 = Alone;
+
+/// It has none.
+#[cfg(not(target_arch = "x86_64"))]
+pub fn pair() -> Option<Pair> {
+    None
+}
 
 /// It has none.
 #[cfg(not(target_arch = "x86_64"))]
