@@ -12,8 +12,8 @@
 
 mod program;
 
-use islands::app::config::Config;
 use islands::archipelago::{Step, island};
+use islands::runs::config::Config;
 use islands::store::{Logbook, RunDir};
 use program::{median, number};
 use serde_json::Value;

@@ -24,8 +24,9 @@
 //! |   | [`store`] | what a run leaves on disk |
 //! |   | [`formats`] | files for people and other programs |
 //! |   | `view` | the run as a film in Rerun (feature `view`) |
-//! | 5 | [`app`] | the program |
-//! | 6 | [`guide`] | the user's guide, which is text alone |
+//! | 5 | [`runs`] | a run as a library: its configuration, the catalogue of problems, its summary |
+//! | 6 | [`app`] | the program |
+//! | 7 | [`guide`] | the user's guide, which is text alone |
 //!
 //! Start with [`archipelago::island::step`], one generation of one island as a list of phases, and
 //! [`archipelago::lockstep`], a whole run in twenty lines.
@@ -48,7 +49,7 @@
 //! # A run in one process
 //!
 //! ```
-//! use islands::app::config::Config;
+//! use islands::runs::config::Config;
 //! use islands::archipelago::{Digest, lockstep};
 //!
 //! let config = Config { islands: 2, population: 3, elites: 1, genes: 2, seed: Some(7), ..Config::default() };
@@ -75,6 +76,8 @@ pub mod store;
 pub mod transport;
 #[cfg(feature = "view")]
 pub mod view;
+
+pub mod runs;
 
 pub mod app;
 

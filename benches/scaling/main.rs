@@ -18,10 +18,10 @@ mod program;
 mod tables;
 mod trace;
 
-use islands::app::config::Config;
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
 use islands::rng::{Purpose, Source};
+use islands::runs::config::Config;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;

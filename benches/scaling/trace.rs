@@ -2,12 +2,12 @@
 //! others who use the machine count less, and what waits for the disk by the clock.
 
 use crate::program;
-use islands::app::config::Config;
 use islands::archipelago::{Archipelago, Step, lockstep};
 use islands::creature::Gene;
 use islands::evolution::{Evaluation, Hurdles, Problem};
 use islands::problems::Locomotion;
 use islands::rng::Stream;
+use islands::runs::config::Config;
 use islands::store::{Logbook, RunDir};
 use std::sync::{LazyLock, Mutex};
 use std::time::Instant;

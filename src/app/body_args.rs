@@ -1,6 +1,6 @@
 //! What can be said about files of genomes and bodies.
 
-use super::terrains::TerrainArgs;
+use super::terrain_args::TerrainArgs;
 use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Scales};

@@ -1,9 +1,9 @@
 //! `islands clean`: removes what crashed runs left in shared memory and in the folder for temporary files.
 
-use super::Failure;
 use super::cli::CleanArgs;
 use super::console::print;
 use super::table;
+use crate::runs::Failure;
 use crate::transport::{Domain, Remains, Removal, TransportError};
 
 /// Lists what dead launchers of this user left, and removes it. Runs that are under way, and whatever is

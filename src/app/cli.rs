@@ -2,14 +2,14 @@
 
 use super::body_args::ChangeArgs;
 pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
-use super::config::FREE;
 pub use super::experiment::ExperimentArgs;
 use super::problem_args::ProblemArgs;
 use super::settings::SettingArgs;
-use super::terrains::TerrainArgs;
+use super::terrain_args::TerrainArgs;
 use crate::choice;
 use crate::creature::Profile;
 use crate::problems::{RobustBy, Task};
+use crate::runs::config::FREE;
 use crate::simulation::Engine;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
@@ -363,8 +363,8 @@ pub struct IslandArgs {
 
 #[cfg(test)]
 mod tests {
-    use super::super::config::Config;
     use super::*;
+    use crate::runs::config::Config;
 
     #[test]
     fn the_help_of_resume_names_no_default_of_a_new_run() {

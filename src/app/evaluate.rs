@@ -1,15 +1,16 @@
 //! `islands evaluate`: scores genomes and bodies.
 
-use super::catalogue::{Kind, Visitor};
 use super::cli::{EvaluateArgs, TrialArgs};
-use super::config::{Config, THREADS_MAX};
 use super::console::{Stopwatch, print};
 use super::genomes::Specimen;
-use super::subject::Subject;
-use super::{Failure, genomes, terrains};
+use super::terrain_args;
 use crate::evolution::sharing::dearest_first;
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::{Locomotion, Validation};
+use crate::runs::catalogue::{Kind, Visitor};
+use crate::runs::config::{Config, THREADS_MAX};
+use crate::runs::subject::Subject;
+use crate::runs::{Failure, genome_files};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -97,7 +98,7 @@ impl Visitor for Examiner<'_> {
 
     fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
         let read = |path: &PathBuf| {
-            genomes::read_for(&problem, path, &[]).map_err(|reason| {
+            genome_files::read_for(&problem, path, &[]).map_err(|reason| {
                 Failure::usage(format!("cannot use {}: {reason}", path.display()))
             })
         };
@@ -189,7 +190,7 @@ impl EvaluateArgs {
             max_links: *max_links,
             ..self.problem.over(usual)
         };
-        terrains::find(&mut config, terrain, None)?;
+        terrain_args::find(&mut config, terrain, None)?;
         config.check()?;
         Ok(config)
     }

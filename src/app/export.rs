@@ -1,12 +1,12 @@
 //! `islands export`: a creature for other programs.
 
-use super::Failure;
 use super::cli::{ExportArgs, Format};
 use super::console::print;
 use super::genomes::Specimen;
 use crate::creature::Creature;
 use crate::evolution::Problem;
 use crate::formats::{course, genome_csv, mjcf, motion, stl, urdf};
+use crate::runs::Failure;
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;

@@ -1,27 +1,22 @@
 //! Genome and body files that the user names.
 
-use super::Failure;
 use super::body_args::ChangeArgs;
 use super::cli::{ReadArgs, TrialArgs};
-use super::config::LINKS_MAX;
 use super::console::say;
-use super::subject::Subject;
 use super::table::harmless;
-use crate::creature::gene::PARAMETER_COUNT;
 use crate::creature::{Creature, Gene, Profile, Reading, Scales};
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
 use crate::problems::{Locomotion, RobustBy, Robustness};
+use crate::runs::Failure;
+use crate::runs::config::LINKS_MAX;
+use crate::runs::genome_files::{FILE_BYTES_MAX, dropped};
 use crate::store::file;
 use std::fmt::Display;
 use std::path::Path;
 
-/// The largest file of a genome, in bytes: the longest genome that can be read, in the longest useful form.
-const FILE_BYTES_MAX: usize = 64 << 20;
 /// The most clamped values, and notes on a body, that are reported one by one.
 const SHOWN: usize = 20;
-/// The most columns that may be left out.
-const DROPPED_MAX: usize = 64;
 
 /// What a file that the user names may be.
 #[derive(Debug)]
@@ -76,35 +71,6 @@ pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String
     let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
     let read = genome_csv::read_without(bytes.as_slice(), dropped);
     read.map_err(|error| reason(&bytes, &error))
-}
-
-/// Reads a genome of any problem; what could not be read is for the caller to say.
-///
-/// # Errors
-/// What is wrong with it.
-pub fn read_for<P: Subject>(
-    problem: &P,
-    path: &Path,
-    dropped: &[usize],
-) -> Result<Vec<P::Gene>, String> {
-    let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
-    problem.read_genome(&bytes, dropped)
-}
-
-/// The columns to leave out, if they can be.
-///
-/// # Errors
-/// One sentence that says what to change.
-pub fn dropped(columns: &[usize]) -> Result<&[usize], Failure> {
-    let most = PARAMETER_COUNT + columns.len();
-    let are_there = columns.iter().all(|column| (1..=most).contains(column));
-    let twice = (1..columns.len()).any(|i| columns[..i].contains(&columns[i]));
-    match columns.len() <= DROPPED_MAX && are_there && !twice {
-        true => Ok(columns),
-        false => Err(Failure::usage(format!(
-            "--drop-column takes different columns from 1 to {most} of lines with {most}"
-        ))),
-    }
 }
 
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -2,10 +2,11 @@
 
 use super::cli::{ImportArgs, ReadArgs};
 use super::console::{print, say};
+use super::genomes;
 use super::table::harmless;
-use super::{Failure, genomes, seeds};
 use crate::creature::{self, Gene, Profile, Reading, profile};
 use crate::formats::{course, genome_csv};
+use crate::runs::{Failure, genome_files, seeds};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -42,7 +43,7 @@ struct Clamped {
 pub fn run(args: &ImportArgs) -> Result<(), Failure> {
     let read_args = ReadArgs { profile: args.profile, changes: args.changes.clone() };
     let reading = read_args.checked()?;
-    let dropped = genomes::dropped(&args.changes.drop_columns)?;
+    let dropped = genome_files::dropped(&args.changes.drop_columns)?;
     let files = seeds::gather(&args.files)?;
     args.out.as_deref().map(make_folder).transpose()?;
     let outs = names(&files, args.out.as_deref());

@@ -1,6 +1,5 @@
 //! `islands inspect`: the body that a genome or a URDF describes.
 
-use super::Failure;
 use super::cli::InspectArgs;
 use super::console::print;
 use super::genomes::{self, Specimen};
@@ -8,6 +7,7 @@ use super::table::lay_out;
 use crate::creature::{self, Development, JointKind, Link, Motor};
 use crate::formats::urdf::ReadBody;
 use crate::formats::{BodyInspection, Inspection};
+use crate::runs::Failure;
 use std::path::Path;
 
 /// Shows the body in a file.

@@ -3,7 +3,7 @@
 //! Here are the child's end and the words; the parent's end is the launcher's.
 
 use super::console;
-use super::{Failure, INTERRUPTED};
+use crate::runs::{Failure, INTERRUPTED};
 use rustix::process::{Pid, Signal, getppid, set_parent_process_death_signal};
 use signal_hook::iterator::Signals;
 use std::sync::Arc;

@@ -1,9 +1,9 @@
 //! Ancestries in words.
 
-use super::config::Config;
-use super::subject::Subject;
 use crate::archipelago::{Birth, Champion, Descent};
 use crate::evolution::Id;
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use crate::view::Family;
 use crate::view::family::{Generation, Member};
 

@@ -1,8 +1,8 @@
 //! The flags that say what is evolved.
 
-use super::Failure;
-use super::catalogue::{Kind, Wish};
-use super::config::Config;
+use crate::runs::Failure;
+use crate::runs::catalogue::{Kind, Wish};
+use crate::runs::config::Config;
 use clap::Args;
 
 /// What is evolved.

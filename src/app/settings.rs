@@ -1,11 +1,11 @@
 //! The flags that say what evolves, and how.
 
-use super::config::Config;
 use super::problem_args::ProblemArgs;
 use crate::archipelago::{Algorithm, Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::Profile;
 use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
 use crate::problems::{RobustBy, Task};
+use crate::runs::config::Config;
 use crate::simulation::Engine;
 use clap::Args;
 
@@ -194,8 +194,8 @@ impl SettingArgs {
 
 #[cfg(test)]
 mod tests {
-    use super::super::cli::Cli;
     use super::*;
+    use crate::app::cli::Cli;
     use clap::Parser;
 
     #[test]

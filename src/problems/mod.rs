@@ -12,7 +12,7 @@
 //! three islands:
 //!
 //! ```
-//! use islands::app::config::Config;
+//! use islands::runs::config::Config;
 //! use islands::archipelago::lockstep;
 //! use islands::evolution::variation::sequences::Layout;
 //! use islands::evolution::{Evaluation, Problem, Variation};

@@ -7,10 +7,10 @@
 use crate::hostile::pieces::checkpoint_file;
 use crate::support::World;
 use expect_test::expect;
-use islands::app::config::Config;
 use islands::archipelago::{Champion, Digest, Island, Outbox};
 use islands::creature::Gene;
 use islands::formats::{genome_csv, metrics};
+use islands::runs::config::Config;
 use islands::store::{Checkpoint, Entry, RecordLog, RunDir, checkpoint};
 use serde::{Serialize, de::DeserializeOwned};
 use std::fs::{self, File};

@@ -3,12 +3,12 @@
 use crate::formats::course::fixture;
 use crate::support::{TINY, World};
 use expect_test::expect;
-use islands::app::config::Config;
 use islands::archipelago::{Digest, lockstep};
 use islands::creature::Gene;
 use islands::creature::gene::VALUE_MAX;
 use islands::formats::genome_csv;
 use islands::problems::Founded;
+use islands::runs::config::Config;
 use islands::store::RunDir;
 use serde_json::{Value, json};
 use std::fs;

@@ -4,13 +4,13 @@
 
 use super::pieces::{self, Sum, archipelago};
 use super::wire;
-use islands::app::config::Config;
 use islands::archipelago::arrivals::check_record;
 use islands::archipelago::{Arrivals, Births, Champion, Outbox, island};
 use islands::creature::{Gene, Profile, express};
 use islands::evolution::{self, Individual};
 use islands::formats::{genome_csv, metrics, urdf};
 use islands::problems::Task;
+use islands::runs::config::Config;
 use islands::simulation::Trial;
 use islands::simulation::assembly::Assembly;
 use islands::store::{Entry, Logbook, RecordLog, RunDir, Tail, checkpoint};

@@ -3,10 +3,10 @@
 use super::pieces::{SETTINGS, archipelago, checkpoint_file, folder};
 use super::seeds;
 use crate::support::{TINY, World, until};
-use islands::app::config::Config;
 use islands::archipelago::{Archipelago, Island};
 use islands::creature::Gene;
 use islands::evolution::Id;
+use islands::runs::config::Config;
 use islands::store::{Checkpoint, Claim, Logbook, Restored, RunDir, StoreError, checkpoint};
 use std::fs;
 use std::os::unix::fs::symlink;

@@ -3,11 +3,11 @@
 use super::pieces::{self, RUN_ID, SETTINGS, Sum, archipelago, part, place};
 use super::wire;
 use crate::formats::course::fixture;
-use islands::app::config::Config;
 use islands::archipelago::{Step, lockstep};
 use islands::creature::{Creature, Gene, Profile, express};
 use islands::formats::metrics::{self, Row};
 use islands::formats::{genome_csv, urdf};
+use islands::runs::config::Config;
 use islands::store::{Checkpoint, Entry, encode};
 use islands::transport::Limits;
 use rand::RngExt;

@@ -2,13 +2,13 @@
 
 use crate::formats::course::fixture;
 use crate::support::{TINY, World};
-use islands::app::config::Config;
 use islands::archipelago::lockstep;
 use islands::creature::{Controller, Creature, Link, Morphology, Shape};
 use islands::evolution::{Evaluation, Problem};
 use islands::formats::terrain;
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
 use islands::rng::{Purpose, Source};
+use islands::runs::config::Config;
 use islands::simulation::terrain::mountain;
 use islands::simulation::{Engine, simulate};
 use islands::store::RunDir;

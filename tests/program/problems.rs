@@ -3,8 +3,8 @@
 use crate::promises::determinism::{in_lockstep, in_processes};
 use crate::support::{World, await_generation, run_id};
 use expect_test::expect;
-use islands::app::config::Config;
 use islands::problems::{Benchmark, Function};
+use islands::runs::config::Config;
 use islands::store::RunDir;
 use std::fs;
 

@@ -2,13 +2,13 @@
 
 use crate::support::reel::Recording;
 use crate::support::{TINY, World};
-use islands::app::config::Config;
 use islands::archipelago::Champion;
 use islands::creature::scales::Rescaling;
 use islands::creature::{Gene, Profile};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
 use islands::problems::{Locomotion, Robustness, Task};
+use islands::runs::config::Config;
 use islands::store::{RecordLog, RunDir};
 
 const WALK: Locomotion =

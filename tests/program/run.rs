@@ -1,8 +1,8 @@
 //! A run, with every real part: processes, shared memory, files.
 
 use crate::support::{Ending, Running, TINY, World, run_id};
-use islands::app::config::Config;
 use islands::formats::metrics;
+use islands::runs::config::Config;
 use islands::store::RunDir;
 use serde_json::Value;
 use std::collections::BTreeSet;

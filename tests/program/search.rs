@@ -3,7 +3,7 @@
 
 use crate::promises::determinism::{in_lockstep, in_processes};
 use crate::support::{World, await_generation};
-use islands::app::config::Config;
+use islands::runs::config::Config;
 use islands::store::RunDir;
 use std::collections::BTreeSet;
 use std::fs;

@@ -1,12 +1,12 @@
 //! Islands that do not wait for each other: what arrived is recorded, and leads to the same bits again.
 
 use crate::support::{World, await_generation, is_alive, signal, try_signal, until};
-use islands::app::catalogue::Visitor;
-use islands::app::config::Config;
-use islands::app::subject::Subject;
 use islands::archipelago::arrivals::check_record;
 use islands::archipelago::{Arrivals, Digest, lockstep};
 use islands::rng::Stream;
+use islands::runs::catalogue::Visitor;
+use islands::runs::config::Config;
+use islands::runs::subject::Subject;
 use islands::store::{RecordLog, RunDir};
 use rand::{RngExt, SeedableRng};
 use std::fs;

@@ -5,11 +5,11 @@
 //! `ISLANDS_BLESS=1 cargo test --release golden`.
 
 use crate::support::World;
-use islands::app::catalogue::Visitor;
-use islands::app::config::Config;
-use islands::app::subject::Subject;
 use islands::archipelago::{Digest, Step, lockstep};
 use islands::formats::metrics::{self, Row};
+use islands::runs::catalogue::Visitor;
+use islands::runs::config::Config;
+use islands::runs::subject::Subject;
 use islands::simulation::Engine;
 use islands::store::RunDir;
 use std::collections::BTreeSet;

@@ -3,9 +3,9 @@
 
 use crate::support::forger::Forger;
 use crate::support::{Ending, Running, World, await_generation, run_id, signal, until};
-use islands::app::config::{Config, Launch};
 use islands::archipelago::{Digest, Outbox, lockstep};
 use islands::creature::Gene;
+use islands::runs::config::{Config, Launch};
 use islands::store::{Entry, RecordLog, RunDir};
 use std::fs;
 use std::process::{Command, Stdio};

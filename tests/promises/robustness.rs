@@ -1,7 +1,6 @@
 //! Scores of several perturbed trials: what they come to, and that a run, its film and its verifier agree on them.
 
 use crate::support::World;
-use islands::app::config::Config;
 use islands::archipelago::Champion;
 use islands::creature::{
     Controller, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
@@ -9,6 +8,7 @@ use islands::creature::{
 use islands::evolution::{Evaluation, Fitness, Hurdles, Outcome, Problem};
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
 use islands::rng::{Purpose, Source};
+use islands::runs::config::Config;
 use islands::simulation::{self, Engine};
 use islands::store::{RecordLog, RunDir};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};

@@ -1,10 +1,10 @@
 //! What a run claims is what its champion gets on trials that nobody selected it on: recorded, shown, and checked.
 
 use crate::support::World;
-use islands::app::config::Config;
 use islands::archipelago::Champion;
 use islands::creature::Gene;
 use islands::evolution::{Fitness, Problem};
+use islands::runs::config::Config;
 use islands::store::{RecordLog, RunDir};
 
 const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";

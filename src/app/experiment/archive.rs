@@ -1,8 +1,8 @@
 //! The runs that have finished, a file each.
 
-use super::super::Failure;
 use super::definition::{Plan, Setting};
 use super::trial::Trial;
+use crate::runs::Failure;
 use crate::store::{ExperimentDir, StoreError, file};
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;

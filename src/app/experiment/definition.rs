@@ -1,9 +1,9 @@
 //! What an experiment is: its file, and the settings and seeds that the file comes to.
 
-use super::super::Failure;
-use super::super::catalogue::Wish;
-use super::super::config::{self, Config, FILE_BYTES_MAX, SEED_MAX};
-use super::super::table::harmless;
+use crate::app::table::harmless;
+use crate::runs::Failure;
+use crate::runs::catalogue::Wish;
+use crate::runs::config::{self, Config, FILE_BYTES_MAX, SEED_MAX};
 use crate::store::file;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;

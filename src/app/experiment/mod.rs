@@ -17,11 +17,11 @@ mod workers;
 
 pub use args::ExperimentArgs;
 
-use super::Failure;
-use super::config::{FILE_BYTES_MAX, THREADS_MAX};
 use super::console::{print, say};
 use super::parent_link::StopSignal;
 use super::table::lay_out;
+use crate::runs::Failure;
+use crate::runs::config::{FILE_BYTES_MAX, THREADS_MAX};
 use crate::store::{ExperimentDir, StoreError, file};
 use analysis::{Comparison, Summary};
 use archive::Run;

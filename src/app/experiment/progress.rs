@@ -1,6 +1,6 @@
 //! How an experiment is getting on: a bar on a terminal, a plain line a run elsewhere.
 
-use super::super::console::say;
+use crate::app::console::say;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::Duration;

@@ -1,13 +1,13 @@
 //! One run of an experiment, in this process.
 
-use super::super::catalogue::Visitor;
-use super::super::config::Config;
-use super::super::kept::kept;
-use super::super::result::lowest_mean;
-use super::super::subject::Subject;
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
 use crate::evolution::population::mean_of_pairs;
 use crate::evolution::{Fitness, Gene, Individual};
+use crate::runs::catalogue::Visitor;
+use crate::runs::config::Config;
+use crate::runs::kept::kept;
+use crate::runs::subject::Subject;
+use crate::runs::summary::lowest_mean;
 use serde::{Deserialize, Serialize};
 
 /// A run that is ended by its evaluations ends as well after so many generations in which there was none: there will

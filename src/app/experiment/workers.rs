@@ -1,10 +1,10 @@
 //! Many runs at a time, each on a thread of its own.
 
-use super::super::Failure;
-use super::super::config::Config;
-use super::super::console::Stopwatch;
-use super::super::parent_link::StopSignal;
 use super::trial::{Trial, run_one};
+use crate::app::console::Stopwatch;
+use crate::app::parent_link::StopSignal;
+use crate::runs::Failure;
+use crate::runs::config::Config;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 

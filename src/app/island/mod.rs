@@ -3,16 +3,16 @@
 mod panics;
 mod patience;
 
-use super::Failure;
-use super::catalogue::Visitor;
 use super::cli::IslandArgs;
-use super::config::Config;
 use super::console::{Stopwatch, say};
 use super::parent_link::{FINISHED, READY, StopSignal, tell};
-use super::seeds;
-use super::subject::Subject;
 use crate::archipelago::{Action, Archipelago, Arrival, ExchangeMode, Outbox, Protocol, Step};
 use crate::problems::Founded;
+use crate::runs::Failure;
+use crate::runs::catalogue::Visitor;
+use crate::runs::config::Config;
+use crate::runs::seeds;
+use crate::runs::subject::Subject;
 use crate::store::{Journal, JournalReader, Logbook, Restored, RunDir};
 use crate::transport::{Exchange, TICK};
 use panics::Panics;

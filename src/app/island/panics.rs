@@ -1,8 +1,8 @@
 //! Genomes whose evaluation panicked: a bug, and nobody finds it without them.
 
-use super::super::console::say;
-use super::super::subject::Subject;
+use crate::app::console::say;
 use crate::archipelago::Step;
+use crate::runs::subject::Subject;
 use crate::store::RunDir;
 
 /// Who finds no bug with so many genomes finds none with more, and a run may be long.
@@ -43,11 +43,11 @@ impl<'a> Panics<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::config::Config;
     use crate::archipelago::island;
     use crate::creature::Gene;
     use crate::creature::gene::PARAMETER_COUNT;
     use crate::formats::genome_csv;
+    use crate::runs::config::Config;
     use std::fs::File;
 
     #[test]

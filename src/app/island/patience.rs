@@ -1,7 +1,7 @@
 //! How long an island waits before it says for whom.
 
-use super::super::console::{Stopwatch, say};
-use super::super::parent_link::tell;
+use crate::app::console::{Stopwatch, say};
+use crate::app::parent_link::tell;
 
 /// An island that hears nothing for so long wonders, in seconds.
 const WORRY_S: f64 = 5.0;

@@ -1,10 +1,10 @@
 //! When whose family is shown.
 
-use super::super::pedigree::Herald;
-use super::super::subject::Subject;
 use super::logs::BirthRecords;
+use crate::app::pedigree::Herald;
 use crate::archipelago::{Champion, Report};
 use crate::evolution::{Fitness, Id};
+use crate::runs::subject::Subject;
 use crate::view::{Family, Pace};
 
 /// Shows, whenever a slot of the film opens, the family of the best champion that there is in its generation, once

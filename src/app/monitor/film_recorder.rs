@@ -1,14 +1,14 @@
 //! Shows what the islands report as a film.
 
-use super::super::Failure;
-use super::super::config::Config;
-use super::super::console::say;
-use super::super::pedigree::{self, Herald};
-use super::super::subject::{Shot, Subject};
 use super::ancestry::Ancestry;
 use super::logs::{BirthRecords, Sighting};
 use super::news::News;
+use crate::app::console::say;
+use crate::app::pedigree::{self, Herald};
 use crate::archipelago::{Champion, ExchangeMode};
+use crate::runs::Failure;
+use crate::runs::config::Config;
+use crate::runs::subject::{Shot, Subject};
 use crate::store::RunDir;
 use crate::view::{
     Clip, Draft, Lane, Live, Pace, Program, Recorder, RunCard, ViewError, opens_row,

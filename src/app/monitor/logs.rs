@@ -1,6 +1,6 @@
 //! What the islands of a run have written down, read while they write on.
 
-use super::super::console::say;
+use crate::app::console::say;
 use crate::archipelago::{Birth, Births, Champion, Descent, Report};
 use crate::evolution::{Gene, Id};
 use crate::store::{Entry, Index, RunDir, StoreError, Tail};

@@ -3,8 +3,8 @@
 //! same film anew. `logs` reads what the islands wrote, `film_recorder` films it, `news` is what it tells, `ancestry` says
 //! whose family is seen, and `show` when.
 
-use super::Failure;
 use super::cli::MonitorArgs;
+use crate::runs::Failure;
 
 #[cfg(feature = "view")]
 mod ancestry;

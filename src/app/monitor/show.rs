@@ -1,15 +1,16 @@
 //! When what the islands of a run wrote down is shown, and when that is over.
 
-use super::super::Failure;
-use super::super::catalogue::Visitor;
-use super::super::cli::{MonitorArgs, Watching};
-use super::super::config::Config;
-use super::super::console::{Stopwatch, print, say};
-use super::super::parent_link::{SERVING, StopSignal, tell};
-use super::super::subject::Subject;
-use super::super::{result, viewer};
 use super::film_recorder::FilmRecorder;
 use super::logs::Logs;
+use crate::app::cli::{MonitorArgs, Watching};
+use crate::app::console::{Stopwatch, print, say};
+use crate::app::parent_link::{SERVING, StopSignal, tell};
+use crate::app::viewer;
+use crate::runs::Failure;
+use crate::runs::catalogue::Visitor;
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
+use crate::runs::summary;
 use crate::store::{RunDir, file};
 use crate::view::Live;
 use std::fs::{File, TryLockError};
@@ -191,7 +192,7 @@ impl<P: Subject> Show<P> {
         if !film_recorder.has_shown() {
             return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
         }
-        let is_over = result::finished(&dir, &config, film_recorder.problem()).is_some();
+        let is_over = summary::finished(&dir, &config, film_recorder.problem()).is_some();
         let short = logs.first_short_of(config.generations).filter(|_| is_over);
         if let Some((island, generations)) = short {
             let news = format!(

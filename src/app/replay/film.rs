@@ -1,11 +1,11 @@
 //! Trials that are filmed as the user wants them.
 
-use super::super::Failure;
-use super::super::cli::ReplayArgs;
-use super::super::genomes::{links_max, reading, robustness};
+use crate::app::cli::ReplayArgs;
+use crate::app::genomes::{links_max, reading, robustness};
 use crate::creature::{Creature, Reading, Scales};
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::Locomotion;
+use crate::runs::Failure;
 use crate::simulation::{Trajectory, Trial};
 use crate::view::{Draft, Recorder, RunCard};
 use std::path::Path;

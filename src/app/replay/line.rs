@@ -1,17 +1,17 @@
 //! The creatures of a run, one after another.
 
-use super::super::catalogue::Kind;
-use super::super::cli::ReplayArgs;
-use super::super::config::Config;
-use super::super::console::{print, say};
-use super::super::pedigree::{self, Herald};
-use super::super::subject::Subject;
-use super::super::{Failure, seeds};
 use super::film::{Studio, recorder};
+use crate::app::cli::ReplayArgs;
+use crate::app::console::{print, say};
+use crate::app::pedigree::{self, Herald};
 use crate::archipelago::{Birth, Births, Champion, Descent, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual, Problem};
 use crate::problems::Locomotion;
+use crate::runs::catalogue::Kind;
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
+use crate::runs::{Failure, seeds};
 use crate::store::{RecordLog, RunDir};
 use crate::view::{Clip, Family, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! `islands replay`: films genomes and bodies, or a run's champions or their ancestors.
 
-use super::Failure;
 use super::cli::ReplayArgs;
+use crate::runs::Failure;
 
 #[cfg(feature = "view")]
 mod film;

@@ -1,13 +1,13 @@
 //! Creatures that race.
 
-use super::super::Failure;
-use super::super::cli::ReplayArgs;
-use super::super::console::print;
-use super::super::genomes::Specimen;
-use super::super::subject::Subject;
 use super::film::{Studio, recorder};
+use crate::app::cli::ReplayArgs;
+use crate::app::console::print;
+use crate::app::genomes::Specimen;
 use crate::evolution::{Fitness, Problem};
 use crate::problems::Locomotion;
+use crate::runs::Failure;
+use crate::runs::subject::Subject;
 use crate::view::{Clip, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};
 

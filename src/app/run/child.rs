@@ -1,6 +1,6 @@
 //! A child process, as its parent sees it.
 
-use super::super::Failure;
+use crate::runs::Failure;
 use std::fmt;
 use std::io::{BufRead, BufReader, Read};
 use std::os::unix::process::CommandExt;

@@ -1,7 +1,7 @@
 //! The command that films the champion of a run, as the run tried it.
 
-use super::super::config::Config;
-use super::super::console::quoted;
+use crate::app::console::quoted;
+use crate::runs::config::Config;
 use crate::store::RunDir;
 
 /// The command, as a shell takes it.
@@ -28,10 +28,10 @@ fn flags(dir: &RunDir, config: &Config) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::terrains::KeptTerrain;
     use super::*;
     use crate::creature::{Profile, Scales};
     use crate::problems::{RobustBy, Task};
+    use crate::runs::terrains::KeptTerrain;
 
     #[test]
     fn the_command_says_how_the_run_tried_its_bodies_and_can_be_pasted_into_a_shell() {

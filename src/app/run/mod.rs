@@ -14,16 +14,17 @@ mod resume;
 mod run_log;
 mod supervisor;
 
-use super::Failure;
-use super::catalogue::{Kind, Visitor, Wish};
 use super::cli::{OutputArgs, ResumeArgs, RunArgs};
-use super::config::{self, Config};
 use super::console::{print, quoted, say};
 use super::parent_link::StopSignal;
-use super::result::{self, Summary};
-use super::subject::Subject;
-use super::{seeds, terrains};
+use super::terrain_args;
 use crate::archipelago::ExchangeMode;
+use crate::runs::Failure;
+use crate::runs::catalogue::{Kind, Visitor, Wish};
+use crate::runs::config::{self, Config};
+use crate::runs::subject::Subject;
+use crate::runs::summary::{self, Summary};
+use crate::runs::{seeds, terrains};
 use crate::store::{Claim, RunDir};
 use crate::transport::{Domain, ServiceHost};
 use rand::TryRng;
@@ -106,7 +107,7 @@ impl Visitor for GoOn<'_> {
     fn visit<P: Subject>(self, problem: P) -> Result<(), Failure> {
         let Self { args, mut config, dir, claim, stop_signal } = self;
         resume::require_checkpoints::<P::Gene>(&dir, &config)?;
-        let finished = result::finished(&dir, &config, &problem);
+        let finished = summary::finished(&dir, &config, &problem);
         if let Some(summary) = finished.filter(|it| !(it.awaits_film && films(&args.output))) {
             // Its launcher may have been killed over its last words.
             Domain::remove_abandoned();
@@ -156,17 +157,17 @@ impl<P: Subject> Launch<P> {
         .map(|mut supervisor| {
             let evolved = supervisor.see_to_the_end();
             let summary =
-                evolved.and_then(|()| result::gather(&dir, &config, &problem, films(output)));
+                evolved.and_then(|()| summary::gather(&dir, &config, &problem, films(output)));
             if let (Ok(summary), false) = (&summary, output.json) {
                 show(summary);
             }
             supervisor.let_film_end(summary.is_ok());
-            summary.and_then(|summary| result::with_film(&dir, summary))
+            summary.and_then(|summary| summary::with_film(&dir, summary))
         });
         let summary = supervised.and_then(|summary| summary);
         if summary.is_err() {
             // What there is so far can be plotted; if not, there is a worse failure to tell of.
-            let _ = result::write_metrics(&dir, &config);
+            let _ = summary::write_metrics(&dir, &config);
         }
         let summary = summary.map_err(|failure| resume::way_back(failure, &dir));
         let closed = service_host.close();
@@ -211,7 +212,7 @@ fn resolve(args: &RunArgs) -> Result<Config, Failure> {
     if !args.changes.scales.is_empty() {
         config.scales = args.changes.scales.iter().cloned().collect();
     }
-    terrains::find(&mut config, &args.terrain, args.config.as_deref())?;
+    terrain_args::find(&mut config, &args.terrain, args.config.as_deref())?;
     config.check()?;
     config = config.settled();
     config.check()?;

@@ -1,11 +1,11 @@
 //! The processes of a run: who they are, what is known of each, and how one is started again.
 
-use super::super::Failure;
-use super::super::cli::{ViewArgs, Watching};
-use super::super::config::Config;
-use super::super::console::Stopwatch;
 use super::child::{ChildProcess, Role, Word};
 use super::restart_policy::RestartPolicy;
+use crate::app::cli::{ViewArgs, Watching};
+use crate::app::console::Stopwatch;
+use crate::runs::Failure;
+use crate::runs::config::Config;
 use crate::store::RunDir;
 use std::collections::BTreeMap;
 use std::process::ExitStatus;

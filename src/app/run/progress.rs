@@ -1,9 +1,9 @@
 //! How a run is getting on: a bar an island on a terminal, plain lines elsewhere.
 
-use super::super::config::Config;
-use super::super::console::{Stopwatch, say};
+use crate::app::console::{Stopwatch, say};
 use crate::archipelago::Report;
 use crate::evolution::{Fitness, Problem};
+use crate::runs::config::Config;
 use crate::transport::Sighting;
 use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;

@@ -1,11 +1,11 @@
 //! Whether a run can go on, and how: what `islands resume` checks before it starts anything.
 
-use super::super::Failure;
-use super::super::config::Config;
-use super::super::console::{Stopwatch, quoted};
-use super::super::settings::SettingArgs;
+use crate::app::console::{Stopwatch, quoted};
+use crate::app::settings::SettingArgs;
 use crate::archipelago::ExchangeMode;
 use crate::evolution::Gene;
+use crate::runs::Failure;
+use crate::runs::config::Config;
 use crate::store::{Checkpoint, Checkpoints, Claim, RunDir, StoreError};
 use std::io::ErrorKind;
 use std::thread::sleep;

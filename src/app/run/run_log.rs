@@ -1,9 +1,9 @@
 //! What happens in a run: told on the terminal, and kept in the run's log.
 
-use super::super::Failure;
-use super::super::config::Config;
 use super::progress::Progress;
 use crate::evolution::Problem;
+use crate::runs::Failure;
+use crate::runs::config::Config;
 use crate::store::{RunDir, file};
 use crate::transport::Sighting;
 use std::sync::Mutex;

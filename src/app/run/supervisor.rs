@@ -1,17 +1,17 @@
 //! A run under way: its processes are started, watched, started again, and stopped.
 
-use super::super::Failure;
-use super::super::cli::{OutputArgs, Watching};
-use super::super::config::Config;
-use super::super::console::Stopwatch;
-use super::super::parent_link::{FINISHED, READY, SERVING, StopSignal};
-use super::super::result::BestOnDisk;
-use super::super::subject::Subject;
 use super::child::{Role, Word};
 use super::processes::Processes;
 use super::restart_policy::{FAILURES_MAX, PAUSE_MAX, PAUSE_MIN};
 use super::resume::{self, require_folder};
 use super::run_log::RunLog;
+use crate::app::cli::{OutputArgs, Watching};
+use crate::app::console::Stopwatch;
+use crate::app::parent_link::{FINISHED, READY, SERVING, StopSignal};
+use crate::runs::Failure;
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
+use crate::runs::summary::BestOnDisk;
 use crate::store::RunDir;
 use crate::transport::{Domain, ReportReader, ServiceHost};
 use std::process::ExitStatus;
@@ -158,7 +158,7 @@ impl<'a, P: Subject> Supervisor<'a, P> {
     fn open_viewer(&mut self, address: &str) {
         #[cfg(feature = "view")]
         if std::mem::take(&mut self.opens_viewer) {
-            super::super::viewer::open(address.to_owned());
+            crate::app::viewer::open(address.to_owned());
         }
         #[cfg(not(feature = "view"))]
         let _ = (address, self.opens_viewer);

@@ -1,13 +1,13 @@
 //! Whether the champions are who their ancestors can have bred.
 
-use super::super::seeds;
-use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
 use crate::archipelago::Lineage;
 use crate::archipelago::lineage::Gap;
 use crate::evolution::Individual;
+use crate::runs::seeds;
+use crate::runs::subject::Subject;
 use crate::store::RunDir;
 
 /// Breeds every champion again from its first ancestors on, which simulates nothing; `sound` says that nothing is

@@ -1,11 +1,11 @@
 //! Whether what islands took in, where they do not wait for each other, was sent, and leads to what they became.
 
-use super::super::seeds;
-use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
 use crate::archipelago::{Digest, lockstep};
+use crate::runs::seeds;
+use crate::runs::subject::Subject;
 use crate::store::RunDir;
 
 /// Says of each outbox that an island took in whether it is in its sender's journal.

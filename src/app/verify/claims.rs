@@ -1,13 +1,13 @@
 //! What the files of the whole run claim, compared with what its islands left.
 
-use super::super::result;
-use super::super::subject::Subject;
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
 use crate::archipelago::{Champion, Digest, Island};
 use crate::evolution::Gene;
 use crate::formats::metrics;
+use crate::runs::subject::Subject;
+use crate::runs::summary;
 use crate::store::{RunDir, StoreError, file};
 use serde_json::{Map, Value};
 use std::io::ErrorKind;
@@ -30,7 +30,7 @@ impl SummaryFile {
     /// Reads it.
     pub fn read(dir: &RunDir) -> Self {
         let path = dir.summary();
-        let bytes = match file::read(&path, result::SUMMARY_BYTES_MAX) {
+        let bytes = match file::read(&path, summary::SUMMARY_BYTES_MAX) {
             Ok(bytes) => bytes,
             Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::NotFound => {
                 return Self::Missing;
@@ -88,7 +88,7 @@ pub fn check<P: Subject>(
 ) -> (Option<String>, Vec<Check>) {
     let finals = records.finals(terms);
     let digest = finals.map(|finals| Digest::of(finals).to_string());
-    let best = finals.and_then(|_| result::best(problem, &records.champions));
+    let best = finals.and_then(|_| summary::best(problem, &records.champions));
     let ending = finals.filter(|_| sound).zip(best).map(|(islands, best)| Ending { islands, best });
     let checks = vec![
         check_digest(dir, digest.as_deref(), summary, records.states.len()),
@@ -136,7 +136,7 @@ fn check_summary<P: Subject>(
         (SummaryFile::Whole(_), None) => check.note("not checked: what it sums up is damaged"),
         (SummaryFile::Whole(said), Some(Ending { islands, best })) => {
             let seconds = records.seconds();
-            let right = result::summarise(dir, terms.config, problem, islands, best, seconds);
+            let right = summary::summarise(dir, terms.config, problem, islands, best, seconds);
             let right = serde_json::to_value(right).expect("a summary is plain data");
             let claims = right.as_object().into_iter().flatten();
             for (key, value) in claims.filter(|(key, _)| !FREE.contains(&key.as_str())) {

@@ -1,10 +1,10 @@
 //! Simulating again what was scored, which must get the same fitness to the last bit.
 
-use super::super::config::Config;
-use super::super::console::{Stopwatch, say};
-use super::super::subject::Subject;
 use super::check::{Check, counted};
+use crate::app::console::{Stopwatch, say};
 use crate::evolution::{Fitness, Gene, sharing};
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};

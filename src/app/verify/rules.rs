@@ -3,8 +3,6 @@
 //! Checksums show what was damaged by chance. These rules show what was changed and given a right checksum, as far
 //! as that can be seen without evolving the whole run again.
 
-use super::super::config::Config;
-use super::super::subject::Subject;
 use crate::archipelago::arrivals::check_record;
 use crate::archipelago::{
     Archipelago, Arrivals, Birth, Births, Champion, Emigrants, ExchangeMode, Graph, Island, Outbox,
@@ -13,6 +11,8 @@ use crate::archipelago::{
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
 use crate::evolution::{Fitness, Gene, Id, Memory, Reproduction, Survival};
+use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use crate::store::{Checkpoint, Entry};
 use std::ops::RangeInclusive;
 

@@ -1,8 +1,8 @@
 //! What came out of a run: gathered from what its islands wrote.
 
-use super::Failure;
 use super::catalogue::Kind;
 use super::config::Config;
+use super::failure::Failure;
 use super::kept::kept;
 use super::map_output;
 use super::reports::Reports;

@@ -1,8 +1,8 @@
 //! The one place that knows every problem: their names, what a run of each has by default, and which settings mean
 //! nothing to it.
 
-use super::Failure;
 use super::config::{Config, GENES_MAX, SEED_MAX};
+use super::failure::Failure;
 use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::choice;

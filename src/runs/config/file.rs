@@ -1,9 +1,9 @@
 //! Configurations as files say them.
 
-use super::super::Failure;
-use super::super::catalogue::{Kind, Wish};
-use super::super::terrains;
 use super::{Config, FREE};
+use crate::runs::Failure;
+use crate::runs::catalogue::{Kind, Wish};
+use crate::runs::terrains;
 use crate::store::{RunDir, file};
 use std::path::Path;
 use toml::Table;

@@ -1,7 +1,7 @@
 //! The map that a run of MAP-Elites has drawn, as files.
 
-use super::Failure;
 use super::config::Config;
+use super::failure::Failure;
 use super::subject::Subject;
 use crate::archipelago::Island;
 use crate::evolution::survival::map_elites;

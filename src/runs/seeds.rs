@@ -3,9 +3,9 @@
 //! The result of a run depends on them, so its configuration holds their digest, and its folder what they are. They
 //! are dealt out by [`Founded`].
 
-use super::Failure;
 use super::config::{Config, POPULATION_MAX};
-use super::genomes;
+use super::failure::Failure;
+use super::genome_files;
 use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::problems::Founded;
@@ -56,7 +56,7 @@ pub fn find<P: Subject>(
     read_from: Option<&Path>,
 ) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let found = match (&config.seed_genomes, read_from) {
-        _ if !named.is_empty() => read(problem, named, genomes::dropped(dropped)?)?,
+        _ if !named.is_empty() => read(problem, named, genome_files::dropped(dropped)?)?,
         (Some(said), Some(file)) => load(problem, &RunDir::at(file.with_file_name("")), said)?,
         (Some(_), None) | (None, _) => Vec::new(),
     };
@@ -143,7 +143,7 @@ fn read<P: Subject>(
 ) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let files = gather(named)?;
     let read = |path: &PathBuf| {
-        genomes::read_for(problem, path, dropped).map_err(|reason| {
+        genome_files::read_for(problem, path, dropped).map_err(|reason| {
             let path = path.display();
             let advice = match P::HAS_BODIES {
                 true => " (islands import sorts out what can be read)",

@@ -5,8 +5,8 @@ mod file;
 
 pub use file::{FILE_BYTES_MAX, one_line};
 
-use super::Failure;
 use super::catalogue::Kind;
+use super::failure::Failure;
 use super::seeds::SeedGenomes;
 use super::terrains::KeptTerrain;
 use crate::archipelago::migration::{MIGRANTS_MAX, Migration};
