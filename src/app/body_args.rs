@@ -1,23 +1,14 @@
 //! What can be said about files of genomes and bodies.
 
-use super::terrain_args::TerrainArgs;
+use super::settings::{OfBody, OfTrial, SettingArgs};
+use super::terrain_args::{self, TerrainArgs};
 use crate::choice;
 use crate::creature::scales::Rescaling;
 use crate::creature::{Profile, Scales};
-use crate::problems::{Locomotion, RobustBy, Task};
-use crate::simulation::Engine;
+use crate::runs::Failure;
+use crate::runs::config::Config;
 use clap::Args;
 use std::path::PathBuf;
-
-/// How a genome file is read.
-#[derive(Debug, Clone, Args)]
-pub struct ReadArgs {
-    /// How genes are read: native, lecture or coursework
-    #[arg(long, default_value_t)]
-    pub profile: Profile,
-    #[command(flatten)]
-    pub changes: ChangeArgs,
-}
 
 /// How the files of changed course programs are read.
 #[derive(Debug, Clone, Default, Args)]
@@ -41,30 +32,26 @@ impl ChangeArgs {
 /// How a genome file is read and tried.
 #[derive(Debug, Clone, Args)]
 pub struct TrialArgs {
-    /// What the creature has to do.
-    #[arg(long, default_value_t, help = format!("What the creature has to do: {}", Task::list()))]
-    pub task: Task,
     #[command(flatten)]
-    pub read: ReadArgs,
-    /// Physics engine: featherstone (our own, ten times as fast) or rapier
-    #[arg(long, default_value_t)]
-    pub engine: Engine,
-    /// Perturbed trials: friction, motor strength, first direction, a push and the step differ; of so many and three
-    /// times more, which the best of an island have, the score is made; 0 for one trial as it is
-    #[arg(long, default_value_t = Locomotion::DEFAULT.robustness.trials, value_name = "K")]
-    pub robustness: u32,
-    /// What the scores of these trials come to: mean, median, quartile (the lower one) or worst
-    #[arg(long, default_value_t, value_name = "HOW")]
-    pub robust_by: RobustBy,
-    /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts
-    #[arg(long, default_value_t = Locomotion::DEFAULT.judged, num_args = 0..=1, require_equals = true,
-        default_missing_value = "true", action = clap::ArgAction::Set, value_name = "BOOL")]
-    pub judged: bool,
-    /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = Locomotion::DEFAULT.links_max, value_name = "L")]
-    pub max_links: usize,
+    pub settings: SettingArgs<OfTrial>,
+    #[command(flatten)]
+    pub changes: ChangeArgs,
     #[command(flatten)]
     pub terrain: TerrainArgs,
+}
+
+impl TrialArgs {
+    /// The configuration of a run whose creatures are tried so.
+    ///
+    /// # Errors
+    /// If something is out of its range, the profile has no such scales, or the terrain cannot be used.
+    pub fn config(&self) -> Result<Config, Failure> {
+        let scales = self.changes.scales();
+        let mut config = self.settings.over(Config { scales, ..Config::default() });
+        terrain_args::find(&mut config, &self.terrain, None)?;
+        config.check()?;
+        Ok(config)
+    }
 }
 
 /// Looking at a body.
@@ -83,10 +70,9 @@ pub struct InspectArgs {
     #[arg(value_name = "GENOME.csv|BODY.urdf")]
     pub genome: PathBuf,
     #[command(flatten)]
-    pub read: ReadArgs,
-    /// No body gets more links than this, but for profile coursework
-    #[arg(long, default_value_t = Locomotion::DEFAULT.links_max, value_name = "L")]
-    pub max_links: usize,
+    pub settings: SettingArgs<OfBody>,
+    #[command(flatten)]
+    pub changes: ChangeArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

@@ -1,16 +1,12 @@
 //! The command line.
 
 use super::body_args::ChangeArgs;
-pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, ReadArgs, TrialArgs};
+pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, TrialArgs};
 pub use super::experiment::ExperimentArgs;
-use super::problem_args::ProblemArgs;
-use super::settings::SettingArgs;
+use super::settings::{OfReplay, OfWorth, SettingArgs};
 use super::terrain_args::TerrainArgs;
 use crate::choice;
-use crate::creature::Profile;
-use crate::problems::{RobustBy, Task};
-use crate::runs::config::FREE;
-use crate::simulation::Engine;
+use crate::runs::config::SETTINGS;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
@@ -48,28 +44,14 @@ pub fn parse() -> Cli {
 // All settings can be said to a run that goes on, so that it can say which one it cannot change. Its help names
 // those that it can.
 fn command() -> clap::Command {
-    let settings = SettingArgs::augment_args(clap::Command::new(""));
-    let settings: Vec<_> = settings.get_arguments().map(|arg| arg.get_id().clone()).collect();
     Cli::command().mut_subcommand("resume", |resume| {
-        resume.mut_args(|arg| match arg.get_id() {
-            id if is_free(id) => as_in_the_run(arg),
-            id if settings.contains(id) => arg.hide(true),
-            _ => arg,
+        SETTINGS.iter().fold(resume, |resume, setting| {
+            resume.mut_arg(&setting.name, |arg| match setting.about.is_free {
+                true => arg.help(format!("{} [default: as in the run]", setting.help)),
+                false => arg.hide(true),
+            })
         })
     })
-}
-
-/// Whether it is a setting that may be another one when a run goes on.
-fn is_free(id: &clap::Id) -> bool {
-    FREE.contains(&id.as_str().replace('_', "-").as_str())
-}
-
-/// A setting that stays as the run has it, whatever a new run's default is.
-fn as_in_the_run(arg: clap::Arg) -> clap::Arg {
-    let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-    let what = help.split(" [default: ").next().unwrap_or_default();
-    let help = format!("{what} [default: as in the run]");
-    arg.help(help)
 }
 
 /// What to do; without a word, `run`.
@@ -216,9 +198,11 @@ pub struct EvaluateArgs {
     #[arg(required = true, value_name = "GENOME.csv|BODY.urdf")]
     pub genomes: Vec<PathBuf>,
     #[command(flatten)]
-    pub problem: ProblemArgs,
+    pub settings: SettingArgs<OfWorth>,
     #[command(flatten)]
-    pub trial: TrialArgs,
+    pub changes: ChangeArgs,
+    #[command(flatten)]
+    pub terrain: TerrainArgs,
     /// Try every creature in so many perturbations that no run selects on, in both engines, and print their mean,
     /// spread and worst
     #[arg(long, value_name = "N")]
@@ -251,7 +235,7 @@ pub struct ReplayArgs {
     /// Of a run, so many creatures, picked evenly: the first, the last and some between
     #[arg(long, default_value_t = 12, value_name = "C", value_parser = clap::value_parser!(u32).range(2..=64))]
     pub clips: u32,
-    /// Let them move for so long instead of the task's time [default: as the task]
+    /// Trial duration in seconds [default: the task's]
     #[arg(long, value_name = "S")]
     pub seconds: Option<f64>,
     /// The recording to write [default: beside the file, or in the run's folder]
@@ -260,31 +244,10 @@ pub struct ReplayArgs {
     /// Whether a viewer opens: spawn or off
     #[arg(long, value_name = "HOW", default_value = "off")]
     pub view: Watching,
-    /// What the creatures have to do.
-    #[arg(long, help = format!("What the creatures have to do: {} [default: walk, or as in the run]", Task::list()))]
-    pub task: Option<Task>,
-    /// How genes are read: native, lecture or coursework [default: native, or as in the run]
-    #[arg(long)]
-    pub profile: Option<Profile>,
+    #[command(flatten)]
+    pub settings: SettingArgs<OfReplay>,
     #[command(flatten)]
     pub changes: ChangeArgs,
-    /// Physics engine: featherstone (our own, ten times as fast) or rapier [default: featherstone, or as in the run]
-    #[arg(long)]
-    pub engine: Option<Engine>,
-    /// Perturbed trials; the film is of the one whose score is nearest to what all come to [default: 8, or as in the
-    /// run]
-    #[arg(long, value_name = "K")]
-    pub robustness: Option<u32>,
-    /// What the scores of these trials come to: mean, median, quartile or worst [default: quartile, or as in the
-    /// run]
-    #[arg(long, value_name = "HOW")]
-    pub robust_by: Option<RobustBy>,
-    /// Have the other engine judge the score: where it finds less than 0.85 of it, its own counts [default: false, or as in the run]
-    #[arg(long, num_args = 0..=1, require_equals = true, default_missing_value = "true", value_name = "BOOL")]
-    pub judged: Option<bool>,
-    /// No body gets more links than this, but for profile coursework [default: 16, or as in the run]
-    #[arg(long, value_name = "L")]
-    pub max_links: Option<usize>,
     #[command(flatten)]
     pub terrain: TerrainArgs,
 }
@@ -370,12 +333,12 @@ mod tests {
     fn the_help_of_resume_names_no_default_of_a_new_run() {
         let command = command();
         let resume = command.find_subcommand("resume").expect("there is one");
-        let free: Vec<_> = resume.get_arguments().filter(|arg| is_free(arg.get_id())).collect();
-        assert_eq!(free.len(), FREE.len());
-        for arg in free {
+        for setting in SETTINGS.iter() {
+            let is_it = |arg: &&clap::Arg| arg.get_id() == setting.name.as_str();
+            let arg = resume.get_arguments().find(is_it).expect("it is refused by name");
             let help = arg.get_help().expect("it has one").to_string();
-            assert!(help.ends_with("[default: as in the run]"), "{help}");
-            assert_eq!(help.matches("default").count(), 1, "{help}");
+            assert_eq!(help.ends_with("[default: as in the run]"), setting.about.is_free, "{help}");
+            assert_eq!(arg.is_hide_set(), !setting.about.is_free, "{help}");
         }
     }
 
@@ -384,9 +347,9 @@ mod tests {
         command().debug_assert();
         let config = toml::Table::try_from(Config::default()).expect("it is plain data");
         for arg in Cli::command().get_arguments() {
-            let name = arg.get_id().as_str().replace('_', "-");
+            let name = arg.get_id().as_str();
             let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-            let Some(value) = config.get(&name) else { continue };
+            let Some(value) = config.get(name) else { continue };
             let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
             assert!(help.contains(&format!("[default: {value}]")), "{name} is {value}: {help}");
         }

@@ -1,13 +1,14 @@
 //! `islands evaluate`: scores genomes and bodies.
 
-use super::cli::{EvaluateArgs, TrialArgs};
+use super::cli::EvaluateArgs;
 use super::console::{Stopwatch, print};
 use super::genomes::Specimen;
 use super::terrain_args;
 use crate::evolution::sharing::dearest_first;
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::{Locomotion, Validation};
-use crate::runs::catalogue::{Kind, Visitor};
+use crate::runs::catalogue::Visitor;
+use crate::runs::kind::Kind;
 use crate::runs::config::{Config, THREADS_MAX};
 use crate::runs::subject::Subject;
 use crate::runs::{Failure, genome_files};
@@ -65,7 +66,7 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         return config.visit(Examiner { args, config: &config });
     }
     let problem = config.locomotion();
-    let read = |path: &PathBuf| Specimen::read(path, &args.trial.read.changes);
+    let read = |path: &PathBuf| Specimen::read(path, &args.changes);
     let specimens: Vec<_> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
     let fresh = |specimen: &Specimen, trials| match specimen {
         Specimen::Genome(genome) => problem.fresh(genome, Some(trials)),
@@ -146,8 +147,8 @@ fn judge<P: Subject, T: Sync>(
     let steps = whole as f64 * config.locomotion().steps() as f64;
     let scores = Scores {
         problem: config.problem,
-        task: is_walker.then(|| args.trial.task.to_string()),
-        profile: is_walker.then(|| args.trial.read.profile.to_string()),
+        task: is_walker.then(|| config.task.to_string()),
+        profile: is_walker.then(|| config.profile.to_string()),
         genomes: args.genomes.iter().zip(&evaluations).zip(&validations).map(score).collect(),
         evaluations: evaluations.len(),
         threads: pool.current_num_threads(),
@@ -176,21 +177,10 @@ fn judge<P: Subject, T: Sync>(
 impl EvaluateArgs {
     /// The configuration of a run whose genomes these may be.
     fn config(&self) -> Result<Config, Failure> {
-        let TrialArgs { task, read, engine, robustness, robust_by, judged, max_links, terrain } =
-            &self.trial;
-        let usual = Config::default_for(self.problem.wish());
-        let mut config = Config {
-            task: *task,
-            profile: read.profile,
-            scales: read.changes.scales(),
-            engine: *engine,
-            robustness: *robustness,
-            robust_by: *robust_by,
-            judged: *judged,
-            max_links: *max_links,
-            ..self.problem.over(usual)
-        };
-        terrain_args::find(&mut config, terrain, None)?;
+        let usual = Config::default_for(self.settings.wish());
+        let scales = self.changes.scales();
+        let mut config = self.settings.over(Config { scales, ..usual });
+        terrain_args::find(&mut config, &self.terrain, None)?;
         config.check()?;
         Ok(config)
     }

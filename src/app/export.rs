@@ -21,7 +21,7 @@ const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// # Errors
 /// If it cannot be read, said in that format, or written.
 pub fn run(args: &ExportArgs) -> Result<(), Failure> {
-    let problem = args.trial.problem()?;
+    let problem = args.trial.config()?.locomotion();
     if !SIZES.contains(&args.size) {
         return Err(Failure::usage("--size must be from 0.000001 to 1000000"));
     }
@@ -31,7 +31,7 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
              knows the terrain",
         ));
     }
-    let specimen = Specimen::read(&args.genome, &args.trial.read.changes)?;
+    let specimen = Specimen::read(&args.genome, &args.trial.changes)?;
     if args.format == Format::Csv {
         return export_genome(args, &specimen);
     }

@@ -1,15 +1,12 @@
 //! Genome and body files that the user names.
 
 use super::body_args::ChangeArgs;
-use super::cli::{ReadArgs, TrialArgs};
 use super::console::say;
 use super::table::harmless;
-use crate::creature::{Creature, Gene, Profile, Reading, Scales};
+use crate::creature::{Creature, Gene, Reading};
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
-use crate::problems::{Locomotion, RobustBy, Robustness};
 use crate::runs::Failure;
-use crate::runs::config::LINKS_MAX;
 use crate::runs::genome_files::{FILE_BYTES_MAX, dropped};
 use crate::store::file;
 use std::fmt::Display;
@@ -121,69 +118,4 @@ fn body(text: &[u8], path: &Path) -> Result<ReadBody, Failure> {
         say(&format!("warning: {}: {}", path.display(), harmless(note)));
     }
     Ok(body)
-}
-
-/// The bound of a body, if it may be asked for: development goes as deep.
-///
-/// # Errors
-/// One sentence that says what to change.
-pub fn links_max(wish: usize) -> Result<usize, Failure> {
-    let fine = (1..=LINKS_MAX).contains(&wish);
-    let wrong = || Failure::usage(format!("max-links must be from 1 to {LINKS_MAX}, not {wish}"));
-    fine.then_some(wish).ok_or_else(wrong)
-}
-
-/// Perturbed trials, if there may be so many.
-///
-/// # Errors
-/// One sentence that says what to change.
-pub fn robustness(trials: u32, by: RobustBy) -> Result<Robustness, Failure> {
-    let most = Robustness::TRIALS_MAX;
-    let wrong = || Failure::usage(format!("robustness must be from 0 to {most}, not {trials}"));
-    (trials <= most).then_some(Robustness { trials, by }).ok_or_else(wrong)
-}
-
-impl ReadArgs {
-    /// What the numbers of a gene mean, if that makes sense.
-    ///
-    /// # Errors
-    /// One sentence that says what to change.
-    pub fn checked(&self) -> Result<Reading, Failure> {
-        reading(self.profile, self.changes.scales())
-    }
-}
-
-/// A profile with changed scales, if it has such.
-///
-/// # Errors
-/// One sentence that says what to change.
-pub fn reading(profile: Profile, scales: Scales) -> Result<Reading, Failure> {
-    let fine = scales.check(profile);
-    fine.map(|()| Reading { profile, scales }).map_err(|error| Failure::usage(error.to_string()))
-}
-
-impl TrialArgs {
-    /// The problem that a genome is tried with.
-    ///
-    /// # Errors
-    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be
-    /// used.
-    pub fn problem(&self) -> Result<Locomotion, Failure> {
-        let Self { task, read, engine, robustness: trials, robust_by, judged, max_links, terrain } =
-            self;
-        let robustness = robustness(*trials, *robust_by)?;
-        let (links_max, reading) = (links_max(*max_links)?, read.checked()?);
-        let Reading { profile, scales } = reading;
-        Ok(Locomotion {
-            profile,
-            scales,
-            task: *task,
-            engine: *engine,
-            links_max,
-            robustness,
-            judged: *judged,
-            terrain: terrain.read()?,
-            ..Locomotion::DEFAULT
-        })
-    }
 }

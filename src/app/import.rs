@@ -1,6 +1,6 @@
 //! `islands import`: takes in genomes of the course, whatever state their files are in.
 
-use super::cli::{ImportArgs, ReadArgs};
+use super::cli::ImportArgs;
 use super::console::{print, say};
 use super::genomes;
 use super::table::harmless;
@@ -41,8 +41,9 @@ struct Clamped {
 /// # Errors
 /// With exit code 1 if some were refused, with 2 if nothing can be done.
 pub fn run(args: &ImportArgs) -> Result<(), Failure> {
-    let read_args = ReadArgs { profile: args.profile, changes: args.changes.clone() };
-    let reading = read_args.checked()?;
+    let reading = Reading { profile: args.profile, scales: args.changes.scales() };
+    let checked = reading.scales.check(reading.profile);
+    checked.map_err(|error| Failure::usage(error.to_string()))?;
     let dropped = genome_files::dropped(&args.changes.drop_columns)?;
     let files = seeds::gather(&args.files)?;
     args.out.as_deref().map(make_folder).transpose()?;

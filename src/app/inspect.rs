@@ -2,12 +2,13 @@
 
 use super::cli::InspectArgs;
 use super::console::print;
-use super::genomes::{self, Specimen};
+use super::genomes::Specimen;
 use super::table::lay_out;
 use crate::creature::{self, Development, JointKind, Link, Motor};
 use crate::formats::urdf::ReadBody;
 use crate::formats::{BodyInspection, Inspection};
 use crate::runs::Failure;
+use crate::runs::config::Config;
 use std::path::Path;
 
 /// Shows the body in a file.
@@ -15,8 +16,11 @@ use std::path::Path;
 /// # Errors
 /// If it cannot be read or expressed.
 pub fn run(args: &InspectArgs) -> Result<(), Failure> {
-    let (links_max, reading) = (genomes::links_max(args.max_links)?, args.read.checked()?);
-    match Specimen::read(&args.genome, &args.read.changes)? {
+    let scales = args.changes.scales();
+    let config = args.settings.over(Config { scales, ..Config::default() });
+    config.check()?;
+    let (links_max, reading) = (config.max_links, config.locomotion().reading());
+    match Specimen::read(&args.genome, &args.changes)? {
         Specimen::Body(body) if args.json => {
             print(&json(&BodyInspection::new(&body, source(&args.genome))));
         }

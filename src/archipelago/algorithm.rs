@@ -34,6 +34,16 @@ impl Algorithm {
         Algorithm::Panmictic,
     ];
 
+    /// Whether it is a genetic algorithm: with survival and exchange.
+    pub fn is_genetic(self) -> bool {
+        matches!(self, Algorithm::Ga | Algorithm::Panmictic)
+    }
+
+    /// Whether islands may differ in how they search.
+    pub fn has_islands(self) -> bool {
+        self == Algorithm::Ga
+    }
+
     /// The archipelago on which this algorithm searches, where the settings are those of another one. What it has no
     /// use for, such as migration between climbers, is off.
     pub fn on(self, archipelago: Archipelago) -> Archipelago {

@@ -111,7 +111,7 @@ impl Strategy {
 
     /// Offspring of a generation.
     pub fn brood(&self) -> usize {
-        self.population - if self.survival.is_steady() { 0 } else { self.elites }
+        self.population - if self.survival.has_elites() { self.elites } else { 0 }
     }
 
     /// How parents are picked: uniformly where a scheme of survival has it so, since it is that which selects.

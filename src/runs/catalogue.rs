@@ -1,29 +1,9 @@
-//! The one place that knows every problem: their names, what a run of each has by default, and which settings mean
-//! nothing to it.
+//! The one place that makes problems of configurations, and hands the one that is meant to whoever does something with it.
 
-use super::config::{Config, GENES_MAX, SEED_MAX};
-use super::failure::Failure;
+use super::config::Config;
+use super::kind::Kind;
 use super::subject::Subject;
-use crate::archipelago::Algorithm;
-use crate::choice;
-use crate::creature::gene::PARAMETER_COUNT;
-use crate::evolution::{Crossover, Mutation, Selection, Survival, cma};
-use crate::problems::{Benchmark, Bits, Function, Pattern};
-use serde::{Deserialize, Serialize};
-use toml::Table;
-
-/// What can be evolved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub enum Kind {
-    /// Creatures that move.
-    #[default]
-    Creatures,
-    /// Points that lie low on a function.
-    Function(Function),
-    /// Strings of ones and zeros.
-    Bits(Pattern),
-}
+use crate::problems::{Benchmark, Bits};
 
 /// What is done with a problem, whichever it is.
 pub trait Visitor {
@@ -34,118 +14,7 @@ pub trait Visitor {
     fn visit<P: Subject>(self, problem: P) -> Self::Output;
 }
 
-/// What of a configuration decides its defaults.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Wish {
-    /// The problem; creatures if none is said.
-    pub problem: Option<Kind>,
-    /// Variables or bits; as many as are usual if none are said.
-    pub dimensions: Option<usize>,
-    /// Who lives on; all but elites die if nothing is said.
-    pub survival: Option<Survival>,
-}
-
-/// Settings that mean something to creatures alone.
-const OF_CREATURES: [&str; 14] = [
-    "task",
-    "profile",
-    "engine",
-    "robustness",
-    "robust-by",
-    "judged",
-    "max-links",
-    "scales",
-    "terrain",
-    "genes",
-    "max-genes",
-    "shrink-rate",
-    "grow-rate",
-    "duplicate-rate",
-];
-/// Settings that mean something to functions alone.
-const OF_FUNCTIONS: [&str; 2] = ["instance", "rotated"];
-/// What only some patterns have.
-const OF_BLOCKS: &str = "block";
-/// Settings that mean nothing to an algorithm without exchange and without a choice of who lives on.
-const IDLE: [&str; 6] =
-    ["survival", "heterogeneous", "topology", "emigrants", "replacement", "exchange"];
-/// What a genome has that is of one length.
-const OF_FIXED: &str = "dimensions";
-/// What bits have no use for: they change wholly or not at all.
-const OF_NUMBERS: [&str; 3] = ["mutation", "point-amount", "adaptation"];
-
-impl Kind {
-    /// Every problem.
-    pub fn all() -> Vec<Self> {
-        let functions = Function::ALL.map(Kind::Function);
-        let bits = Pattern::ALL.map(Kind::Bits);
-        [Kind::Creatures].into_iter().chain(functions).chain(bits).collect()
-    }
-
-    /// The names of the settings that mean nothing to it.
-    pub fn useless(self) -> Vec<&'static str> {
-        match self {
-            Kind::Creatures => [&OF_FUNCTIONS[..], &[OF_BLOCKS, OF_FIXED]].concat(),
-            Kind::Function(_) => [&OF_CREATURES[..], &[OF_BLOCKS]].concat(),
-            Kind::Bits(Pattern::OneMax) => {
-                [&OF_CREATURES[..], &OF_FUNCTIONS, &OF_NUMBERS, &[OF_BLOCKS]].concat()
-            }
-            Kind::Bits(_) => [&OF_CREATURES[..], &OF_FUNCTIONS, &OF_NUMBERS].concat(),
-        }
-    }
-
-    fn usual_dimensions(self) -> usize {
-        match self {
-            Kind::Bits(pattern) => pattern.usual_bits(),
-            Kind::Creatures | Kind::Function(_) => 30,
-        }
-    }
-}
-
 impl Config {
-    /// What a run has where nothing else is said. A genome of one length neither shrinks nor grows, one of its values
-    /// changes at a time, and evaluating it takes microseconds: there are more generations, and a state is saved less
-    /// often than evolved.
-    pub fn default_for(wish: Wish) -> Self {
-        let usual = Self::default_of(wish);
-        match wish.survival {
-            // With tournaments the niches of fitness sharing come and go (Oei, Goldberg & Chang 1991).
-            Some(Survival::Sharing { .. }) => Self { selection: Selection::Sus, ..usual },
-            _ => usual,
-        }
-    }
-
-    fn default_of(wish: Wish) -> Self {
-        let problem = wish.problem.unwrap_or_default();
-        let dimensions = wish.dimensions.unwrap_or(problem.usual_dimensions());
-        let fixed = Self {
-            problem,
-            dimensions,
-            genes: dimensions,
-            max_genes: dimensions,
-            population: 50,
-            crossover_rate: 0.9,
-            point_rate: 1.0 / dimensions.max(1) as f64,
-            shrink_rate: 0.0,
-            grow_rate: 0.0,
-            checkpoint_interval: 50,
-            ..Self::default()
-        };
-        match problem {
-            Kind::Creatures => Self::default(),
-            Kind::Function(_) => Self {
-                generations: 1_000,
-                // Of what was tried, the least evaluations to the bottom of Rastrigin and Ackley: benches/RESULTS.md.
-                selection: Selection::Tournament { size: 5 },
-                crossover: Crossover::Sbx { eta: 15.0 },
-                mutation: Mutation::Polynomial { eta: 20.0 },
-                point_amount: 1.0,
-                ..fixed
-            },
-            Kind::Bits(pattern) => Self { generations: 200, block: pattern.usual_block(), ..fixed },
-        }
-    }
-
     /// Makes the problem that is solved, and hands it to a visitor.
     pub fn visit<V: Visitor>(&self, visitor: V) -> V::Output {
         let Self { dimensions, instance, rotated, block, .. } = *self;
@@ -157,125 +26,22 @@ impl Config {
             Kind::Bits(pattern) => visitor.visit(Bits { pattern, bits: dimensions, block }),
         }
     }
-
-    /// Makes sure that the problem can have so many variables or bits.
-    pub(super) fn check_dimensions(&self) -> Result<(), Failure> {
-        let Self { problem, dimensions, instance, block, .. } = *self;
-        let least = if problem == Kind::Function(Function::Rosenbrock) { 2 } else { 1 };
-        if !(least..=GENES_MAX).contains(&dimensions) {
-            return Err(Failure::usage(format!(
-                "dimensions must be from {least} to {GENES_MAX}, not {dimensions}"
-            )));
-        }
-        if instance > SEED_MAX {
-            return Err(Failure::usage(format!("instance must be at most {SEED_MAX}")));
-        }
-        self.check_algorithm()?;
-        let is_whole = (1..=dimensions).contains(&block) && dimensions.is_multiple_of(block);
-        match problem {
-            Kind::Bits(Pattern::Trap | Pattern::RoyalRoad) if !is_whole => {
-                Err(Failure::usage(format!(
-                    "{dimensions} bits cannot be cut into blocks of {block}: change --dimensions or --block"
-                )))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Makes sure that the algorithm can search there.
-    fn check_algorithm(&self) -> Result<(), Failure> {
-        let values = match self.problem {
-            Kind::Creatures => self.genes.saturating_mul(PARAMETER_COUNT),
-            Kind::Function(_) => self.dimensions,
-            Kind::Bits(_) => 0,
-        };
-        match self.algorithm {
-            Algorithm::CmaEs if values == 0 => Err(Failure::usage(format!(
-                "cma-es learns from numbers, and {} has bits",
-                self.problem
-            ))),
-            Algorithm::CmaEs if values > cma::DIMENSIONS_MAX => Err(Failure::usage(format!(
-                "cma-es can learn {} numbers at most, and a genome has {values}",
-                cma::DIMENSIONS_MAX
-            ))),
-            _ => Ok(()),
-        }
-    }
-
-    /// Makes sure that nothing is said that means nothing to the problem, the algorithm or who survives; the ranges must
-    /// have been checked.
-    pub(super) fn check_use(&self) -> Result<(), Failure> {
-        let Self { problem, dimensions, .. } = *self;
-        // What is of no use to creatures needs no problem that it is of use to.
-        let survival = Some(self.survival);
-        let wish = Wish { problem: Some(problem), dimensions: Some(dimensions), survival };
-        let table = |config: &Self| Table::try_from(config).map_err(|error| error.to_string());
-        let tables = table(self).and_then(|said| Ok((said, table(&Self::default_for(wish))?)));
-        let (said, usual) = tables.map_err(Failure::usage)?;
-        let differs = |name: &&str| said.get(*name) != usual.get(*name);
-        let chosen = [
-            (self.idle().to_vec(), self.algorithm.to_string(), "algorithm"),
-            (self.unselective().to_vec(), self.survival.to_string(), "survival"),
-            (problem.useless(), problem.to_string(), "problem"),
-        ];
-        for (useless, choice, flag) in chosen {
-            if let Some(name) = useless.into_iter().find(differs) {
-                return Err(Failure::usage(format!(
-                    "{name} means nothing to {choice}: leave it out, or choose another --{flag}"
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// The names of the settings that mean nothing to the algorithm.
-    fn idle(&self) -> &'static [&'static str] {
-        match self.algorithm {
-            Algorithm::Ga => &[],
-            Algorithm::Panmictic => &["heterogeneous"],
-            Algorithm::Random | Algorithm::HillClimb | Algorithm::CmaEs => &IDLE,
-        }
-    }
-
-    /// The names of the settings that mean nothing to a scheme of survival in which it is survival that selects.
-    fn unselective(&self) -> &'static [&'static str] {
-        match self.survival {
-            Survival::Crowding | Survival::Afpo | Survival::MapElites { .. } => {
-                &["selection", "elites"]
-            }
-            Survival::Generational | Survival::Drifting | Survival::Sharing { .. } => &[],
-        }
-    }
 }
-
-impl std::fmt::Display for Kind {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Kind::Creatures => f.write_str("creatures"),
-            Kind::Function(function) => function.fmt(f),
-            Kind::Bits(pattern) => pattern.fmt(f),
-        }
-    }
-}
-
-impl std::str::FromStr for Kind {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("problem", &Self::all(), text)
-    }
-}
-
-choice::as_text!(Kind);
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolution::Variation;
+    use crate::evolution::{Selection, Survival, Variation};
+    use crate::runs::config::{SETTINGS, Wish};
     use crate::rng::{Purpose, Source};
 
     fn usual(problem: Kind) -> Config {
         Config::default_for(Wish { problem: Some(problem), ..Wish::default() })
+    }
+
+    fn useless(problem: Kind) -> Vec<&'static str> {
+        let useless = SETTINGS.iter().filter(|setting| !(setting.about.problem)(problem));
+        useless.map(|setting| setting.name.as_str()).collect()
     }
 
     #[test]
@@ -285,19 +51,10 @@ mod tests {
             config.check().unwrap_or_else(|failure| panic!("{problem}: {failure}"));
             let text = config.to_toml();
             assert_eq!(Config::parse(&text).as_ref(), Ok(&config), "{problem}");
-            let is_said = |name: &&str| text.lines().any(|line| line.starts_with(*name));
-            assert_eq!(problem.useless().into_iter().find(is_said), None, "{problem}: {text}");
+            let is_said = |name: &&str| text.lines().any(|line| line.starts_with(&format!("{name} =")));
+            assert_eq!(useless(problem).into_iter().find(is_said), None, "{problem}: {text}");
             assert_eq!(Config::parse(&format!("problem = \"{problem}\"")), Ok(usual(problem)));
             assert_eq!(problem.to_string().parse(), Ok(problem));
-        }
-    }
-
-    #[test]
-    fn every_name_of_a_setting_that_means_nothing_to_a_problem_is_that_of_a_setting() {
-        let names = Table::try_from(Config::default()).expect("it is plain data");
-        for name in Kind::all().into_iter().flat_map(Kind::useless) {
-            // These are only said where there are some.
-            assert!(names.contains_key(name) || ["scales", "terrain"].contains(&name), "{name}");
         }
     }
 

@@ -3,14 +3,13 @@
 //! The result of a run depends on them, so its configuration holds their digest, and its folder what they are. They
 //! are dealt out by [`Founded`].
 
-use super::config::{Config, POPULATION_MAX};
+use super::config::{Config, POPULATION_MAX, SeedGenomes};
 use super::failure::Failure;
 use super::genome_files;
 use super::subject::Subject;
 use crate::archipelago::Algorithm;
 use crate::problems::Founded;
 use crate::store::{RunDir, file};
-use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The largest copy, in bytes.
@@ -20,27 +19,15 @@ const FILES_MAX: usize = 1_000_000;
 /// How deep folders are searched.
 const DEPTH_MAX: usize = 16;
 
-/// What a configuration says of the genomes that its run begins with.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub struct SeedGenomes {
-    /// How many there are.
-    pub count: usize,
-    /// The BLAKE3 hash of the copy in the run's folder.
-    pub digest: String,
-}
-
-impl SeedGenomes {
-    /// What stands in the copy of some genomes, and what a configuration says of it.
-    fn of<P: Subject>(problem: &P, genomes: &[Vec<P::Gene>]) -> (Vec<u8>, Self) {
-        let mut copy = Vec::new();
-        for genome in genomes {
-            problem.write_genome(genome, &mut copy).expect("memory takes everything");
-            copy.push(b'\n');
-        }
-        let said = Self { count: genomes.len(), digest: blake3::hash(&copy).to_string() };
-        (copy, said)
+/// What stands in the copy of some genomes, and what a configuration says of it.
+fn copy<P: Subject>(problem: &P, genomes: &[Vec<P::Gene>]) -> (Vec<u8>, SeedGenomes) {
+    let mut copy = Vec::new();
+    for genome in genomes {
+        problem.write_genome(genome, &mut copy).expect("memory takes everything");
+        copy.push(b'\n');
     }
+    let said = SeedGenomes { count: genomes.len(), digest: blake3::hash(&copy).to_string() };
+    (copy, said)
 }
 
 /// Finds the genomes that a run is to begin with, and sets in its configuration what it has to say of them: those
@@ -73,7 +60,7 @@ pub fn find<P: Subject>(
     }
     let used = found.len().min(config.islands as usize * config.population.min(POPULATION_MAX));
     let found = found[..used].to_vec();
-    config.seed_genomes = (!found.is_empty()).then(|| SeedGenomes::of(problem, &found).1);
+    config.seed_genomes = (!found.is_empty()).then(|| copy(problem, &found).1);
     Ok(found)
 }
 
@@ -89,7 +76,7 @@ pub fn keep<P: Subject>(
     if genomes.is_empty() {
         return Ok(());
     }
-    let (copy, _) = SeedGenomes::of(problem, genomes);
+    let (copy, _) = self::copy(problem, genomes);
     Ok(dir.write(&dir.seed_genomes(), |out| out.write_all(&copy))?)
 }
 

@@ -1,6 +1,6 @@
 //! What came out of a run: gathered from what its islands wrote.
 
-use super::catalogue::Kind;
+use super::kind::Kind;
 use super::config::Config;
 use super::failure::Failure;
 use super::kept::kept;

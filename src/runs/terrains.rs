@@ -57,16 +57,16 @@ impl KeptTerrain {
 ///
 /// # Errors
 /// If it is not there, or not what the configuration says.
-pub fn read(config: &mut Config, dir: &RunDir) -> Result<(), Failure> {
-    config.terrain.as_mut().map_or(Ok(()), |terrain| terrain.read(dir))
+pub fn read(said: &mut Option<KeptTerrain>, dir: &RunDir) -> Result<(), Failure> {
+    said.as_mut().map_or(Ok(()), |terrain| terrain.read(dir))
 }
 
 /// Writes the copy into the folder of a run that has a terrain of its own.
 ///
 /// # Errors
 /// If the disk is full or gone.
-pub fn keep(dir: &RunDir, config: &Config) -> Result<(), Failure> {
-    let Some(terrain) = config.terrain.as_ref().and_then(|it| it.terrain) else { return Ok(()) };
+pub fn keep(dir: &RunDir, said: Option<&KeptTerrain>) -> Result<(), Failure> {
+    let Some(terrain) = said.and_then(|it| it.terrain) else { return Ok(()) };
     Ok(dir.write(&dir.terrain(), |out| out.write_all(&copy(terrain)))?)
 }
 

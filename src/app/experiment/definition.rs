@@ -2,8 +2,7 @@
 
 use crate::app::table::harmless;
 use crate::runs::Failure;
-use crate::runs::catalogue::Wish;
-use crate::runs::config::{self, Config, FILE_BYTES_MAX, SEED_MAX};
+use crate::runs::config::{self, Config, FILE_BYTES_MAX, SEED_MAX, SETTINGS, Wish};
 use crate::store::file;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
@@ -19,16 +18,11 @@ const NAME_MAX: usize = 200;
 /// Generations of a run that only its evaluations end.
 const GENERATIONS_MAX: u32 = 1_000_000_000;
 
-/// Settings of a run that an experiment has no use for, and why.
-const REFUSED: [(&str, &str); 8] = [
-    ("exchange", "runs of an experiment are in lockstep, where nobody is faster than another"),
-    ("seed", "say seeds, above all tables"),
-    ("threads", "say --threads"),
+/// What a configuration says besides its settings, and why an experiment has no use for it.
+const REFUSED: [(&str, &str); 3] = [
     ("seed-genomes", "runs of an experiment begin with random genomes"),
     ("terrain", "a configuration does not say which; task = \"climb\" has one of its own"),
     ("launch", "nothing is launched"),
-    ("checkpoint-interval", "runs of an experiment are kept once they have finished"),
-    ("clip-every", "nothing is filmed"),
 ];
 
 /// The file of an experiment.
@@ -123,7 +117,8 @@ impl Definition {
     /// # Errors
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
-        toml::from_str(text).map_err(|error| config::one_line(&error, text))
+        let read: Self = toml::from_str(text).map_err(|error| config::one_line(&error, text))?;
+        Ok(Self { base: config::flat(read.base)?, ..read })
     }
 
     /// The file that says the same, of this version.
@@ -267,7 +262,10 @@ fn check_table(place: &str, table: &Table) -> Result<(), String> {
 
 /// Whether a run knows such a setting, with such a value; whether they go together is checked when all are there.
 fn check_setting(place: &str, key: &str, value: &Value) -> Result<(), String> {
-    if let Some((_, instead)) = REFUSED.iter().find(|(refused, _)| *refused == key) {
+    let refused = SETTINGS.iter().filter_map(|setting| {
+        Some((setting.name.as_str(), setting.about.not_in_experiments?))
+    });
+    if let Some((_, instead)) = refused.chain(REFUSED).find(|(refused, _)| *refused == key) {
         return Err(format!("{place} must not say {key}: {instead}"));
     }
     let alone = Table::from_iter([(key.to_owned(), value.clone())]);

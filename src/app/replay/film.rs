@@ -1,11 +1,12 @@
 //! Trials that are filmed as the user wants them.
 
 use crate::app::cli::ReplayArgs;
-use crate::app::genomes::{links_max, reading, robustness};
-use crate::creature::{Creature, Reading, Scales};
+use crate::app::terrain_args;
+use crate::creature::{Creature, Scales};
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::Locomotion;
 use crate::runs::Failure;
+use crate::runs::config::Config;
 use crate::simulation::{Trajectory, Trial};
 use crate::view::{Draft, Recorder, RunCard};
 use std::path::Path;
@@ -29,35 +30,21 @@ pub struct Shot {
 }
 
 impl Studio {
-    /// A studio for a problem, but for what the user wants otherwise.
+    /// A studio that tries creatures as a run with a configuration does, but for what the user wants otherwise.
     ///
     /// # Errors
-    /// If more links or trials are asked for than may be, or scales that the profile has not.
-    pub fn new(args: &ReplayArgs, problem: Locomotion) -> Result<Self, Failure> {
-        let usual = problem.reading();
-        let profile = args.profile.unwrap_or(usual.profile);
-        let scales = match args.changes.scales() {
+    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be used.
+    pub fn new(args: &ReplayArgs, usual: &Config) -> Result<Self, Failure> {
+        let mut config = args.settings.over(usual.clone());
+        config.scales = match args.changes.scales() {
             // Scales belong to the profile that they were changed in.
-            none if none.is_empty() && profile != usual.profile => Scales::NONE,
+            none if none.is_empty() && config.profile != usual.profile => Scales::NONE,
             none if none.is_empty() => usual.scales,
             scales => scales,
         };
-        let Reading { profile, scales } = reading(profile, scales)?;
-        let (trials, by) = (problem.robustness.trials, problem.robustness.by);
-        let problem = Locomotion {
-            task: args.task.unwrap_or(problem.task),
-            profile,
-            scales,
-            engine: args.engine.unwrap_or(problem.engine),
-            links_max: links_max(args.max_links.unwrap_or(problem.links_max))?,
-            robustness: robustness(
-                args.robustness.unwrap_or(trials),
-                args.robust_by.unwrap_or(by),
-            )?,
-            judged: args.judged.unwrap_or(problem.judged),
-            terrain: args.terrain.read()?.or(problem.terrain),
-            ..problem
-        };
+        terrain_args::find(&mut config, &args.terrain, None)?;
+        config.check()?;
+        let problem = config.locomotion();
         let usual = problem.trial();
         let trial = Trial { scored_s: args.seconds.unwrap_or(usual.scored_s), ..usual };
         Ok(Self { problem, trial })

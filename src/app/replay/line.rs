@@ -8,7 +8,7 @@ use crate::archipelago::{Birth, Births, Champion, Descent, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual, Problem};
 use crate::problems::Locomotion;
-use crate::runs::catalogue::Kind;
+use crate::runs::kind::Kind;
 use crate::runs::config::Config;
 use crate::runs::subject::Subject;
 use crate::runs::{Failure, seeds};
@@ -26,7 +26,7 @@ pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
     let config = Config::of_run(&dir)?;
     require_creatures(&config)?;
     let problem = config.locomotion();
-    let studio = Studio::new(args, problem)?;
+    let studio = Studio::new(args, &config)?;
     let most = args.clips as usize;
     let champions = champions(&dir, &config)?;
     let best = champions.last().cloned();

@@ -7,6 +7,7 @@ use crate::app::genomes::Specimen;
 use crate::evolution::{Fitness, Problem};
 use crate::problems::Locomotion;
 use crate::runs::Failure;
+use crate::runs::config::Config;
 use crate::runs::subject::Subject;
 use crate::view::{Clip, Lane, Pace, Program, RunCard};
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// If one cannot be read or expressed, or the recording cannot be written.
 pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
-    let studio = Studio::new(args, Locomotion::default())?;
+    let studio = Studio::new(args, &Config::default())?;
     let out = args.out.clone().unwrap_or_else(|| paths[0].with_extension("rrd"));
     let read = |path| Specimen::read(path, &args.changes);
     let specimens: Vec<_> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;

@@ -1,7 +1,8 @@
 //! The command that films the champion of a run, as the run tried it.
 
 use crate::app::console::quoted;
-use crate::runs::config::Config;
+use crate::runs::config::{Config, SETTINGS};
+use crate::runs::setting::Setting;
 use crate::store::RunDir;
 
 /// The command, as a shell takes it.
@@ -13,13 +14,17 @@ pub fn command(dir: &RunDir, config: &Config) -> String {
 
 /// How the run tried its bodies.
 fn flags(dir: &RunDir, config: &Config) -> Vec<String> {
-    let mut flags = vec![format!("--task {} --profile {}", config.task, config.profile)];
+    let table = toml::Table::try_from(config).expect("a checked configuration is plain data");
+    let settings = SETTINGS.iter().filter(|setting| setting.about.tries_bodies);
+    let flag = |setting: &Setting<Config>| {
+        let value = table.get(&setting.name)?;
+        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        // Without an equals sign a switch has no value.
+        let between = if value.is_bool() { "=" } else { " " };
+        Some(format!("--{}{between}{text}", setting.flag()))
+    };
+    let mut flags: Vec<String> = settings.filter_map(flag).collect();
     flags.extend(config.scales.iter().map(|(name, scale)| format!("--scale {name}={scale}")));
-    let Config { robustness, robust_by, judged, engine, .. } = config;
-    flags.push(format!(
-        "--engine {engine} --robustness {robustness} --robust-by {robust_by} --judged={judged}"
-    ));
-    flags.push(format!("--max-links {}", config.max_links));
     if config.terrain.is_some() {
         flags.push(format!("--terrain {}", quoted(&dir.terrain())));
     }
@@ -49,8 +54,8 @@ mod tests {
         };
         assert_eq!(
             command(&RunDir::at("my run"), &config),
-            "islands replay 'my run/champion.csv' --task climb --profile coursework --scale link-length=0.5 \
-             --engine featherstone --robustness 3 --robust-by mean --judged=false --max-links 9 --terrain 'my run/terrain.csv' --out champion.rrd"
+            "islands replay 'my run/champion.csv' --task climb --profile coursework --engine featherstone \
+             --robustness 3 --robust-by mean --judged=false --max-links 9 --scale link-length=0.5 --terrain 'my run/terrain.csv' --out champion.rrd"
         );
     }
 }

@@ -20,7 +20,8 @@ use super::parent_link::StopSignal;
 use super::terrain_args;
 use crate::archipelago::ExchangeMode;
 use crate::runs::Failure;
-use crate::runs::catalogue::{Kind, Visitor, Wish};
+use crate::runs::catalogue::Visitor;
+use crate::runs::kind::Kind;
 use crate::runs::config::{self, Config};
 use crate::runs::subject::Subject;
 use crate::runs::summary::{self, Summary};
@@ -71,7 +72,7 @@ impl Visitor for Begin<'_> {
             Failure::usage(format!("{error}; choose another folder with --out{go_on}"))
         })?;
         seeds::keep(&problem, &dir, &founders)?;
-        terrains::keep(&dir, &config)?;
+        terrains::keep(&dir, config.terrain.as_ref())?;
         write_config(&dir, &config)?;
         claim.make_folders(config.islands)?;
         Launch { problem, config, dir, claim, domain, service_host, stop_signal }.go(&args.output)
@@ -204,7 +205,7 @@ fn keep_private() {
 
 /// What was asked for: flags over a file over the defaults of the problem, with a seed.
 fn resolve(args: &RunArgs) -> Result<Config, Failure> {
-    let wish = Wish { survival: args.settings.survival, ..args.settings.problem.wish() };
+    let wish = args.settings.wish();
     let mut config = match &args.config {
         Some(path) => args.settings.over(Config::read_for(path, wish)?),
         None => args.settings.over(Config::default_for(wish)),

@@ -45,7 +45,7 @@ pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
 pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
     let own = Config::of_run(dir)?;
     require_version(own.version())?;
-    wish.problem.require_same(&own)?;
+    wish.require_same_problem(&own)?;
     let config = wish.over(own.clone());
     config.check()?;
     let changes = differences(&own.settings(), &config.settings());

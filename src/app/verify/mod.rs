@@ -18,8 +18,8 @@ use super::cli::VerifyArgs;
 use super::console::print;
 use super::table;
 use crate::runs::catalogue::Visitor;
-use crate::runs::config::{Config, FILE_BYTES_MAX};
-use crate::runs::seeds::{self, SeedGenomes};
+use crate::runs::config::{Config, FILE_BYTES_MAX, SeedGenomes};
+use crate::runs::seeds;
 use crate::runs::subject::Subject;
 use crate::runs::{Failure, terrains};
 use crate::store::{RunDir, StoreError, file};
@@ -119,7 +119,7 @@ fn launched(text: &str, dir: &RunDir) -> Result<Config, Obstacle> {
         Obstacle::configuration(format!("{} is damaged: {reason}", dir.config().display()))
     };
     let mut config = Config::parse(text).map_err(|reason| damaged(&reason))?;
-    terrains::read(&mut config, dir)
+    terrains::read(&mut config.terrain, dir)
         .map_err(|failure| Obstacle { file: "terrain.csv", reason: failure.message })?;
     config.check().map_err(|failure| damaged(&failure.message))?;
     if !config.is_launched() {

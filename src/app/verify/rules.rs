@@ -271,7 +271,7 @@ impl<'a> Terms<'a> {
     /// Whether the best of a population lives on.
     fn keeps_its_best(&self) -> bool {
         let strategy = &self.archipelago.strategy;
-        strategy.elites > 0 || strategy.survival.is_steady()
+        strategy.elites > 0 || !strategy.survival.has_elites()
     }
 
     /// Whether its islands do not wait for each other.

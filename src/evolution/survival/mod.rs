@@ -99,9 +99,15 @@ impl Survival {
         }
     }
 
-    /// Whether the old population lives on as far as the new one is no better, so that there are no elites.
-    pub fn is_steady(self) -> bool {
-        matches!(self, Survival::Crowding | Survival::Afpo | Survival::MapElites { .. })
+    /// Whether the best of the old population are kept as elites. Elsewhere all of it lives on as far as the new one is no
+    /// better.
+    pub fn has_elites(self) -> bool {
+        !matches!(self, Survival::Crowding | Survival::Afpo | Survival::MapElites { .. })
+    }
+
+    /// Whether parents are picked as [`Selection`](super::Selection) says. Elsewhere it is survival that selects.
+    pub fn selects_parents(self) -> bool {
+        self.has_elites()
     }
 }
 

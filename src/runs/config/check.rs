@@ -1,6 +1,20 @@
 //! What makes a configuration one that can be run.
 
-use super::*;
+use super::defaults::Wish;
+use super::limits::{GENES_MAX, GENES_OF_ISLAND_MAX, SEED_MAX};
+use super::list::{Config, SETTINGS};
+use crate::archipelago::Algorithm;
+use crate::archipelago::migration::MIGRANTS_MAX;
+use crate::creature::gene::PARAMETER_COUNT;
+use crate::evolution::cma;
+use crate::problems::{Function, Pattern};
+use crate::runs::failure::Failure;
+use crate::runs::kind::Kind;
+use crate::runs::setting::{self, About, Section};
+use crate::runs::terrains::KeptTerrain;
+
+/// What only creatures have, besides settings with a flag.
+const FILES_OF_BODIES: [&str; 2] = ["scales", "terrain"];
 
 impl Config {
     /// Says what is wrong with the configuration, if anything.
@@ -9,7 +23,9 @@ impl Config {
     /// One sentence that says what to change.
     pub fn check(&self) -> Result<(), Failure> {
         self.check_dimensions()?;
-        self.check_ranges()?;
+        for setting in SETTINGS.iter() {
+            setting.check(self).map_err(Failure::usage)?;
+        }
         self.check_genes()?;
         self.check_migrants()?;
         self.terrain.as_ref().map_or(Ok(()), KeptTerrain::check)?;
@@ -22,33 +38,87 @@ impl Config {
         }
     }
 
-    fn check_ranges(&self) -> Result<(), Failure> {
-        let within = |name, value: f64, least: f64, most: f64| {
-            let fine = (least..=most).contains(&value);
-            fine.then_some(()).ok_or_else(|| {
-                Failure::usage(format!("{name} must be from {least} to {most}, not {value}"))
-            })
+    /// Makes sure that the problem can have so many variables or bits.
+    fn check_dimensions(&self) -> Result<(), Failure> {
+        let Self { problem, dimensions, instance, block, .. } = *self;
+        let least = if problem == Kind::Function(Function::Rosenbrock) { 2 } else { 1 };
+        if !(least..=GENES_MAX).contains(&dimensions) {
+            return Err(Failure::usage(format!(
+                "dimensions must be from {least} to {GENES_MAX}, not {dimensions}"
+            )));
+        }
+        if instance > SEED_MAX {
+            return Err(Failure::usage(format!("instance must be at most {SEED_MAX}")));
+        }
+        self.check_algorithm()?;
+        let is_whole = (1..=dimensions).contains(&block) && dimensions.is_multiple_of(block);
+        match problem {
+            Kind::Bits(Pattern::Trap | Pattern::RoyalRoad) if !is_whole => {
+                Err(Failure::usage(format!(
+                    "{dimensions} bits cannot be cut into blocks of {block}: change --dimensions or --block"
+                )))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes sure that the algorithm can search there.
+    fn check_algorithm(&self) -> Result<(), Failure> {
+        let values = match self.problem {
+            Kind::Creatures => self.genes.saturating_mul(PARAMETER_COUNT),
+            Kind::Function(_) => self.dimensions,
+            Kind::Bits(_) => 0,
         };
-        within("islands (--n)", f64::from(self.islands), 1.0, f64::from(ISLANDS_MAX))?;
-        within("population", self.population as f64, 2.0, POPULATION_MAX as f64)?;
-        within("max-genes", self.max_genes as f64, 1.0, GENES_MAX as f64)?;
-        within("genes", self.genes as f64, 1.0, self.max_genes as f64)?;
-        within("max-links", self.max_links as f64, 1.0, LINKS_MAX as f64)?;
-        within("robustness", f64::from(self.robustness), 0.0, f64::from(Robustness::TRIALS_MAX))?;
-        within("elites", self.elites as f64, 0.0, self.population as f64 - 1.0)?;
-        within("crossover-rate", self.crossover_rate, 0.0, 1.0)?;
-        within("point-rate", self.point_rate, 0.0, 1.0)?;
-        within("point-amount", self.point_amount, 0.0, 1.0)?;
-        within("shrink-rate", self.shrink_rate, 0.0, 1.0)?;
-        within("grow-rate", self.grow_rate, 0.0, 1.0)?;
-        within("duplicate-rate", self.duplicate_rate, 0.0, 1.0)?;
-        within("migration-interval", f64::from(self.migration_interval), 1.0, 1e9)?;
-        within("migration-lag", f64::from(self.migration_lag), 0.0, 1e3)?;
-        within("checkpoint-interval", f64::from(self.checkpoint_interval), 1.0, 1e9)?;
-        within("clip-every", f64::from(self.clip_every.unwrap_or(1)), 1.0, 1e9)?;
-        within("generations", f64::from(self.generations), 0.0, 1e9)?;
-        let threads = self.threads.unwrap_or(1);
-        within("threads", threads as f64, 1.0, THREADS_MAX as f64)
+        match self.algorithm {
+            Algorithm::CmaEs if values == 0 => Err(Failure::usage(format!(
+                "cma-es learns from numbers, and {} has bits",
+                self.problem
+            ))),
+            Algorithm::CmaEs if values > cma::DIMENSIONS_MAX => Err(Failure::usage(format!(
+                "cma-es can learn {} numbers at most, and a genome has {values}",
+                cma::DIMENSIONS_MAX
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes sure that nothing is said that means nothing to the algorithm, who survives or the problem; the ranges must
+    /// have been checked.
+    fn check_use(&self) -> Result<(), Failure> {
+        let Self { problem, dimensions, survival, algorithm, .. } = *self;
+        let wish = Wish {
+            problem: Some(problem),
+            dimensions: Some(dimensions),
+            survival: Some(survival),
+        };
+        let (said, usual) = (self.table()?, Self::default_for(wish).table()?);
+        let is_useless = |about: &About| {
+            [
+                (!(about.algorithm)(algorithm)).then(|| (algorithm.to_string(), "algorithm")),
+                (!(about.survival)(survival)).then(|| (survival.to_string(), "survival")),
+                (!(about.problem)(problem)).then(|| (problem.to_string(), "problem")),
+            ]
+        };
+        let flags = SETTINGS.iter().map(|setting| (setting.name.as_str(), is_useless(&setting.about)));
+        let of_bodies = is_useless(&setting::of(Section::Creatures).tries_bodies());
+        let files = FILES_OF_BODIES.map(|name| (name, of_bodies.clone()));
+        for (name, useless) in flags.chain(files) {
+            if let Some((choice, flag)) = useless.into_iter().flatten().next()
+                && said.get(name) != usual.get(name)
+            {
+                return Err(Failure::usage(format!(
+                    "{name} means nothing to {choice}: leave it out, or choose another --{flag}"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The names of the settings that mean nothing to a problem.
+    pub(super) fn useless_to(problem: Kind) -> Vec<&'static str> {
+        let useless = SETTINGS.iter().filter(|setting| !(setting.about.problem)(problem));
+        let files = FILES_OF_BODIES.into_iter().filter(|_| !problem.has_bodies());
+        useless.map(|setting| setting.name.as_str()).chain(files).collect()
     }
 
     fn check_genes(&self) -> Result<(), Failure> {

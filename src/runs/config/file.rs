@@ -1,12 +1,14 @@
 //! Configurations as files say them.
 
-use super::{Config, FREE};
-use crate::runs::Failure;
-use crate::runs::catalogue::{Kind, Wish};
+use super::defaults::Wish;
+use super::list::{Config, SETTINGS};
+use crate::runs::failure::Failure;
+use crate::runs::kind::Kind;
+use crate::runs::setting::{Section, Setting};
 use crate::runs::terrains;
 use crate::store::{RunDir, file};
 use std::path::Path;
-use toml::Table;
+use toml::{Table, Value};
 
 /// The largest configuration file, in bytes; ours have a thousand.
 pub const FILE_BYTES_MAX: usize = 1 << 20;
@@ -44,13 +46,19 @@ impl Config {
     }
 
     fn parse_for(text: &str, wish: Wish) -> Result<Self, String> {
-        let wrong = |error: toml::de::Error| one_line(&error, text);
-        let said: Table = toml::from_str(text).map_err(wrong)?;
-        toml::from_str::<Self>(text).map_err(wrong)?;
-        Self::of_table(said, wish).map_err(|error| wrong(*error))
+        let said = toml::from_str(text).map_err(|error| one_line(&error, text))?;
+        let said = flat(said)?;
+        for (key, value) in &said {
+            let alone = Table::from_iter([(key.clone(), value.clone())]);
+            alone.try_into::<Self>().map_err(|error| match line_of(text, key) {
+                Some(line) => format!("line {line}: {}", one_line(&error, text)),
+                None => one_line(&error, text),
+            })?;
+        }
+        Self::of_table(said, wish).map_err(|error| one_line(&error, text))
     }
 
-    /// What a table says over the defaults of its problem.
+    /// What a table without sections says over the defaults of its problem.
     ///
     /// # Errors
     /// If it says something that a configuration does not know.
@@ -80,7 +88,7 @@ impl Config {
             return Err(Failure::no_run(dir));
         }
         let mut config = Self::read(&dir.config())?;
-        terrains::read(&mut config, dir)?;
+        terrains::read(&mut config.terrain, dir)?;
         config.check()?;
         match config.is_launched() {
             true => Ok(config),
@@ -91,29 +99,52 @@ impl Config {
         }
     }
 
-    /// The file that says the same, without the settings that are of no use to the problem: those have their defaults.
+    /// The file that says the same, in sections, without the settings that are of no use to the problem: those have
+    /// their defaults.
     pub fn to_toml(&self) -> String {
-        let text = toml::to_string(self);
-        let text = text.expect("a checked configuration is plain data within TOML's ranges");
-        let is_of_no_use = |line: &str| {
-            let name = line.split(" = ").next().unwrap_or_default();
-            self.problem.useless().contains(&name)
-        };
-        text.split_inclusive('\n').filter(|line| !is_of_no_use(line)).collect()
+        let table = self.table();
+        let mut left = table.expect("a checked configuration is plain data within TOML's ranges");
+        for useless in Self::useless_to(self.problem) {
+            left.remove(useless);
+        }
+        let mut text = String::new();
+        for section in Section::ALL {
+            let own = SETTINGS.iter().filter(|setting| setting.about.section == section);
+            let line = |name: &str| Some(format!("{name} = {}\n", left.remove(name)?));
+            let lines: String = own.map(|setting| setting.name.as_str()).filter_map(line).collect();
+            if let Some(table) = section.table().filter(|_| !lines.is_empty()) {
+                text += &format!("\n[{table}]\n");
+            }
+            text += &lines;
+        }
+        let tables = toml::to_string(&left).expect("it is plain data");
+        if tables.is_empty() { text } else { format!("{text}\n{tables}") }
     }
 
-    /// The settings that decide what evolves, as TOML: all but [`FREE`], what launched it, and what is of no use
-    /// to the problem. States that were
-    /// saved under other ones, or by another version, are of no use.
+    /// All of it as a table without sections.
+    ///
+    /// # Errors
+    /// If a number is too large for TOML.
+    pub(super) fn table(&self) -> Result<Table, Failure> {
+        Table::try_from(self).map_err(|error| Failure::usage(error.to_string()))
+    }
+
+    /// The settings that decide what evolves, as TOML: all but those that are free, what launched it, and what is of
+    /// no use to the problem. States that were saved under other ones, or by another version, are of no use.
     pub fn settings(&self) -> String {
         self.settings_of(env!("CARGO_PKG_VERSION"))
     }
 
     /// The settings as a version of the program has them that knows the same ones.
     pub fn settings_of(&self, version: &str) -> String {
-        let mut settings =
-            toml::Table::try_from(self).expect("a checked configuration is plain data");
-        for other in FREE.into_iter().chain(["launch"]).chain(self.problem.useless()) {
+        let table = |config: &Self| config.table().expect("a checked configuration is plain data");
+        let (mut settings, usual) = (table(self), table(&Self::default()));
+        for Setting { name, about, .. } in SETTINGS.iter() {
+            if about.is_free || about.is_new && settings.get(name) == usual.get(name) {
+                settings.remove(name);
+            }
+        }
+        for other in Self::useless_to(self.problem).into_iter().chain(["launch"]) {
             settings.remove(other);
         }
         // The first states that were ever saved name no problem.
@@ -128,6 +159,37 @@ impl Config {
         settings.insert("version".to_owned(), version.into());
         settings.to_string()
     }
+}
+
+/// What a file says, without its sections: those are for people.
+///
+/// # Errors
+/// If it says something twice.
+pub fn flat(said: Table) -> Result<Table, String> {
+    let is_section = |key: &str| Section::ALL.iter().any(|section| section.table() == Some(key));
+    let mut flat = Table::new();
+    for (key, value) in said {
+        let entries = match value {
+            Value::Table(section) if is_section(&key) => section,
+            value => Table::from_iter([(key, value)]),
+        };
+        for (key, value) in entries {
+            if flat.insert(key.clone(), value).is_some() {
+                return Err(format!("{key} is said twice"));
+            }
+        }
+    }
+    Ok(flat)
+}
+
+/// The line on which a key stands, or its table begins, from 1.
+fn line_of(text: &str, key: &str) -> Option<usize> {
+    let says = |line: &str| {
+        let rest = line.trim_start().strip_prefix(key);
+        rest.is_some_and(|rest| rest.trim_start().starts_with('='))
+            || line.trim() == format!("[{key}]")
+    };
+    text.lines().position(says).map(|line| line + 1)
 }
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.

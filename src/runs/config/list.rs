@@ -1,0 +1,147 @@
+//! Every setting of a run, each said once.
+
+use super::limits::{GENES_MAX, ISLANDS_MAX, LINKS_MAX, POPULATION_MAX, THREADS_MAX};
+use super::parts::Parts;
+use super::written::{Launch, SeedGenomes};
+use crate::archipelago::{Algorithm, Emigrants, ExchangeMode, Replacement, Topology};
+use crate::creature::{Profile, Scales};
+use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
+use crate::problems::{RobustBy, Robustness, Task};
+use crate::runs::kind::Kind;
+use crate::runs::setting::Section::{Creatures, GeneticAlgorithm, Run, Running, Vectors};
+use crate::runs::setting::{self, Bounds, Number, Section, Setting, of, settings};
+use crate::runs::terrains::KeptTerrain;
+use crate::simulation::Engine;
+use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
+
+settings! {
+    /// Number of islands, each a process
+    islands: u32 => archipelago.islands,
+        of(Run).flag("n").value("N"), in |_| 1.0..=f64::from(ISLANDS_MAX);
+    /// Seed that fixes the result
+    seed: u64,
+        of(Run).usually("picked and printed").not_in_experiments("say seeds, above all tables");
+    /// Problem: creatures; a function to be minimised (sphere, rastrigin, rosenbrock, ackley, schwefel, griewank); or
+    /// bits (onemax, trap, royal-road)
+    problem: Kind = Kind::Creatures, of(Run);
+    /// Search algorithm: ga, or to compare with it random, hill-climb, cma-es or panmictic (one large population)
+    algorithm: Algorithm = Algorithm::Ga, of(Run);
+    /// Generations after the random first one
+    generations: u32 = 140, of(Run).value("G").free(), in |_| 0.0..=1e9;
+    /// Individuals on each island
+    population: usize => archipelago.strategy.population,
+        of(Run).value("P"), in |_| 2.0..=POPULATION_MAX as f64;
+
+    /// Variables of a function, or bits of a genome
+    dimensions: usize = 30, of(Vectors).value("N").for_problem(Kind::is_of_one_length);
+    /// Number of the shift and the rotation of a function
+    instance: u64 = 1, of(Vectors).value("I").for_problem(Kind::is_function);
+    /// Rotate the function, so that its variables depend on each other
+    rotated: bool = false, of(Vectors).for_problem(Kind::is_function);
+    /// Bits of a block of trap or royal-road
+    block: usize = 5, of(Vectors).value("K").for_problem(Kind::has_blocks);
+
+    /// Task of creatures: walk (get away), travel (keep moving), course (as the course program measures) or climb
+    /// (up its mountain)
+    task: Task => locomotion.task, of(Creatures).tries_bodies();
+    /// How genes are read: native, lecture or coursework
+    profile: Profile => locomotion.profile, of(Creatures).tries_bodies();
+    /// Physics engine: featherstone (our own, ten times as fast) or rapier
+    engine: Engine => locomotion.engine, of(Creatures).tries_bodies();
+    /// Perturbed trials of each genome, and four times as many of one that would be the best: friction, motor strength,
+    /// first direction, a push and the step differ, so that luck counts little; 0 for one trial without perturbation
+    robustness: u32 => locomotion.robustness.trials,
+        of(Creatures).value("K").tries_bodies(), in |_| 0.0..=f64::from(Robustness::TRIALS_MAX);
+    /// How the scores of these trials are combined: mean, median, quartile (the lower one) or worst
+    robust_by: RobustBy => locomotion.robustness.by, of(Creatures).value("HOW").tries_bodies();
+    /// The other engine judges would-be champions and emigrants: where it finds less than 0.85 of a score, its own counts
+    judged: bool => locomotion.judged, of(Creatures).tries_bodies();
+    /// Largest number of links of a body; profile coursework has its own
+    max_links: usize => locomotion.links_max,
+        of(Creatures).value("L").tries_bodies(), in |_| 1.0..=LINKS_MAX as f64;
+
+    /// Genes of a random genome
+    genes: usize => locomotion.genes,
+        of(GeneticAlgorithm).value("G").for_problem(Kind::is_of_any_length), in |it| 1.0..=it.max_genes as f64;
+    /// Largest number of genes of a genome
+    max_genes: usize => archipelago.strategy.variation.genes_max,
+        of(GeneticAlgorithm).value("G").for_problem(Kind::is_of_any_length), in |_| 1.0..=GENES_MAX as f64;
+    /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION; with --survival
+    /// sharing the default is sus
+    selection: Selection => archipelago.strategy.selection,
+        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::selects_parents);
+    /// Number of the best that live on unchanged
+    elites: usize => archipelago.strategy.elites,
+        of(GeneticAlgorithm).value("E").for_survival(Survival::has_elites), in |it| 0.0..=it.population as f64 - 1.0;
+    /// How the next population is made: generational, drifting, sharing:RADIUS, crowding, afpo or map-elites:BINS
+    survival: Survival => archipelago.strategy.survival,
+        of(GeneticAlgorithm).value("SCHEME").for_algorithm(Algorithm::is_genetic);
+    /// How two parents are recombined: one-point, two-point, uniform, blend:ALPHA or sbx:ETA
+    crossover: Crossover => archipelago.strategy.variation.crossover, of(GeneticAlgorithm).value("OPERATOR");
+    /// Probability that an offspring has two parents
+    crossover_rate: f64 => archipelago.strategy.variation.crossover_rate,
+        of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
+    /// How a value is changed: uniform, gaussian or polynomial:ETA
+    mutation: Mutation => archipelago.strategy.variation.mutation,
+        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_numbers);
+    /// Probability that a value of a gene is changed
+    point_rate: f64 => archipelago.strategy.variation.point_rate,
+        of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
+    /// Scale of such a change, as a share of the value's range
+    point_amount: f64 => archipelago.strategy.variation.point_amount,
+        of(GeneticAlgorithm).value("0..1").for_problem(Kind::has_numbers), in |_| 0.0..=1.0;
+    /// Probability that an offspring loses a gene
+    shrink_rate: f64 => archipelago.strategy.variation.shrink_rate,
+        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
+    /// Probability that an offspring gains a gene
+    grow_rate: f64 => archipelago.strategy.variation.grow_rate,
+        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
+    /// Probability that an offspring repeats one of its limbs
+    duplicate_rate: f64 => archipelago.strategy.variation.duplicate_rate,
+        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
+    /// What changes the scale of mutation on the way: none, or one-fifth (the 1/5 success rule)
+    adaptation: Adaptation => archipelago.strategy.adaptation,
+        of(GeneticAlgorithm).value("RULE").for_problem(Kind::has_numbers);
+    /// Each island has crossover and mutation rates of its own
+    heterogeneous: bool => archipelago.strategy.heterogeneous,
+        of(GeneticAlgorithm).for_algorithm(Algorithm::has_islands);
+
+    /// Who sends migrants to whom: ring, bidirectional-ring, full, torus, star, hypercube, random-regular:DEGREE or none
+    topology: Topology => archipelago.topology,
+        of(Section::Migration).value("GRAPH").for_algorithm(Algorithm::is_genetic);
+    /// Generations between two exchanges of migrants
+    migration_interval: u32 => archipelago.migration.interval,
+        of(Section::Migration).value("G"), in |_| 1.0..=1e9;
+    /// Individuals that an island sends at each exchange
+    migrants: usize => archipelago.migration.migrants, of(Section::Migration).value("M");
+    /// Exchanges by which immigrants come later, so that no island waits
+    migration_lag: u32 => archipelago.migration.lag,
+        of(Section::Migration).value("L"), in |_| 0.0..=1e3;
+    /// Who is sent: best, random or tournament:SIZE
+    emigrants: Emigrants => archipelago.migration.emigrants,
+        of(Section::Migration).value("WHO").for_algorithm(Algorithm::is_genetic);
+    /// Whom an immigrant replaces: worst (if it is better), random (any but the best) or similar (the most similar, if
+    /// it is better)
+    replacement: Replacement => archipelago.migration.replacement,
+        of(Section::Migration).value("WHOM").for_algorithm(Algorithm::is_genetic);
+    /// Whether islands wait for each other's migrants: sync, or async (each takes in what has arrived; the seed alone does
+    /// not fix the result then, but what arrived is recorded and can be replayed)
+    exchange: ExchangeMode => archipelago.migration.exchange,
+        of(Section::Migration).value("HOW").for_algorithm(Algorithm::is_genetic).not_in_experiments(
+            "runs of an experiment are in lockstep, where nobody is faster than another",
+        );
+
+    /// Generations between two checkpoints of an island: what a crash costs at most
+    checkpoint_interval: u32 = 1,
+        of(Running).value("G").free().not_in_experiments("runs of an experiment are kept once they have finished"),
+        in |_| 1.0..=1e9;
+    /// Generations between two clips of an island's champion in the film: fewer make it longer and larger
+    clip_every: u32,
+        of(Running).value("G").free().usually("a twelfth of all").not_in_experiments("nothing is filmed"),
+        in |_| 1.0..=1e9;
+    /// Threads of all islands together, at least one each; the result does not depend on it
+    threads: usize,
+        of(Running).value("T").free().usually("all cores").not_in_experiments("say --threads"),
+        in |_| 1.0..=THREADS_MAX as f64;
+}
