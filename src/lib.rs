@@ -15,6 +15,7 @@
 //! | 0 | [`rng`] | an address (seed, island, generation, index, purpose) becomes a stream of random numbers |
 //! |   | [`choice`] | settings that are one of a few, by their names |
 //! |   | [`statistics`] | what repeated runs come to, and whether two sets of them differ |
+//! |   | [`work_queue`] | work dealt out to threads, the dearest first |
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
@@ -62,6 +63,7 @@
 pub mod choice;
 pub mod rng;
 pub mod statistics;
+pub mod work_queue;
 
 pub mod creature;
 pub mod evolution;

@@ -1,7 +1,7 @@
 //! The command line.
 
 use super::body_args::ChangeArgs;
-pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs, TrialArgs};
+pub use super::body_args::{ExportArgs, Format, ImportArgs, InspectArgs};
 pub use super::experiment::ExperimentArgs;
 use super::settings::{OfReplay, OfWorth, SettingArgs};
 use super::terrain_args::TerrainArgs;

@@ -4,14 +4,14 @@ use super::cli::EvaluateArgs;
 use super::console::{Stopwatch, print};
 use super::genomes::Specimen;
 use super::terrain_args;
-use crate::evolution::sharing::dearest_first;
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::{Locomotion, Validation};
 use crate::runs::catalogue::Visitor;
-use crate::runs::kind::Kind;
 use crate::runs::config::{Config, THREADS_MAX};
+use crate::runs::kind::Kind;
 use crate::runs::subject::Subject;
 use crate::runs::{Failure, genome_files};
+use crate::work_queue::dearest_first;
 use serde::Serialize;
 use std::path::PathBuf;
 

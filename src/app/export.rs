@@ -3,7 +3,7 @@
 use super::cli::{ExportArgs, Format};
 use super::console::print;
 use super::genomes::Specimen;
-use crate::creature::Creature;
+use crate::creature::{Creature, Reading};
 use crate::evolution::Problem;
 use crate::formats::{course, genome_csv, mjcf, motion, stl, urdf};
 use crate::runs::Failure;
@@ -33,7 +33,7 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
     let specimen = Specimen::read(&args.genome, &args.trial.changes)?;
     if args.format == Format::Csv {
-        return export_genome(args, &specimen);
+        return export_genome(args, &problem.reading(), &specimen);
     }
     let creature = specimen.creature(&args.genome, problem.reading(), problem.links_max)?;
     let name = name(&args.genome);
@@ -52,12 +52,12 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
 }
 
-fn export_genome(args: &ExportArgs, specimen: &Specimen) -> Result<(), Failure> {
+fn export_genome(args: &ExportArgs, reading: &Reading, specimen: &Specimen) -> Result<(), Failure> {
     let path = args.genome.display();
     let Specimen::Genome(genome) = specimen else {
         return Err(Failure::usage(format!("{path} is a body and has no genome to write")));
     };
-    let said = course::translate(genome, &args.trial.read.checked()?);
+    let said = course::translate(genome, reading);
     let said = said.map_err(|error| Failure::usage(format!("cannot export {path}: {error}")))?;
     write(&args.out, |file| genome_csv::write(&said, file))
 }

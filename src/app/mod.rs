@@ -1,6 +1,6 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli`, `settings`, `problem_args`, `terrain_args` and `body_args` are what can be said. `run` is the launcher: it starts
+//! `cli`, `settings`, `terrain_args` and `body_args` are what can be said. `run` is the launcher: it starts
 //! a process for each island (`island`) and one that watches (`monitor`), tied to it by `parent_link`: they die with it,
 //! and stop when it closes their standard input. `experiment` compares settings over many runs in this process. `verify`
 //! looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left; `evaluate`, `inspect`
@@ -26,7 +26,6 @@ mod monitor;
 mod parent_link;
 #[cfg(feature = "view")]
 mod pedigree;
-mod problem_args;
 mod replay;
 mod run;
 mod settings;

@@ -38,7 +38,8 @@ pub enum OfWorth {}
 impl Group for OfWorth {
     fn has(setting: &Setting<Config>) -> bool {
         OfTrial::has(setting)
-            || ["problem", "dimensions", "instance", "rotated", "block"].contains(&setting.name.as_str())
+            || ["problem", "dimensions", "instance", "rotated", "block"]
+                .contains(&setting.name.as_str())
     }
 }
 
@@ -163,9 +164,11 @@ fn arg<G: Group>(setting: &'static Setting<Config>, defaults: &Defaults) -> Arg 
         .action(ArgAction::Set);
     let is_switch = defaults.usual.get(&setting.name).is_some_and(Value::is_bool);
     let arg = match (is_switch, setting.about.value_name) {
-        (true, _) => {
-            arg.num_args(0..=1).require_equals(true).default_missing_value("true").value_name("BOOL")
-        }
+        (true, _) => arg
+            .num_args(0..=1)
+            .require_equals(true)
+            .default_missing_value("true")
+            .value_name("BOOL"),
         (false, Some(name)) => arg.value_name(name),
         (false, None) => arg,
     };

@@ -73,7 +73,9 @@ pub fn find(
 ) -> Result<(), Failure> {
     match (args.read()?, read_from) {
         (Some(terrain), _) => config.terrain = Some(KeptTerrain::of(terrain)),
-        (None, Some(file)) => terrains::read(&mut config.terrain, &RunDir::at(file.with_file_name("")))?,
+        (None, Some(file)) => {
+            terrains::read(&mut config.terrain, &RunDir::at(file.with_file_name("")))?
+        }
         (None, None) => {}
     }
     Ok(())

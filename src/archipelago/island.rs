@@ -5,9 +5,8 @@ use super::lineage::Births;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::survival::map_elites;
-use crate::evolution::{Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics, Survival};
-use crate::rng::Purpose;
+use crate::evolution::{Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics};
+use crate::rng::{Purpose, Source, Stream};
 use serde::{Deserialize, Serialize};
 
 /// The whole state of an island between two generations.
@@ -92,9 +91,10 @@ pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) 
     generation::judge_best(problem, &mut population);
     let births = Births::of(0, &Memory::default(), &population);
     let memory = Memory::first(&population, &archipelago.strategy);
-    let population = match archipelago.strategy.survival {
-        Survival::MapElites { bins } => map_elites::fill(problem, bins, population),
-        _ => population,
+    let survival = archipelago.strategy.survival;
+    let population = match survival.has_cells() {
+        true => survival.survivors(problem, &[], population, 0, &mut fate(source, 0)),
+        false => population,
     };
     let champion = best(&population).expect("a population is never empty").clone();
     let report = Report {
@@ -124,18 +124,18 @@ pub fn step<P: Problem>(
     let Island { index, generation, population, champion, effort: spent, memory } = island;
     let generation = generation + 1;
     let moment = Moment { source: archipelago.source(index), generation };
-    let strategy = &strategy.on(index, &memory);
+    let strategy = &strategy.on(index, memory.amount_scale);
 
     let population = take_in(problem, population, immigrants, archipelago, moment);
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
-    let hurdles = Hurdles::of(&population, strategy);
+    let hurdles = Hurdles::of(&population, strategy.survival.forgets());
     let Brood { population: brood, effort, panicked } =
         generation::evaluate(problem, offspring, &population, &hurdles);
     let births = Births::of(generation, &memory, &brood);
-    let stream = |purpose| moment.source.stream(generation, u32::MAX, purpose);
-    let memory = memory.after(&population, &brood, strategy, &mut stream(Purpose::Sampling));
-    let (survival, mut fate) = (strategy.survival, stream(Purpose::Survival));
-    let next = survival.survivors(problem, &population, brood, strategy.elites, &mut fate);
+    let mut sampling = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
+    let memory = memory.after(&population, &brood, strategy, &mut sampling);
+    let mut fate = fate(moment.source, generation);
+    let next = strategy.survival.survivors(problem, &population, brood, strategy.elites, &mut fate);
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
     let better = contender.filter(|contender| contender.fitness > champion.fitness);
@@ -156,7 +156,12 @@ pub fn step<P: Problem>(
     Step { island, outbox, births, report, champion: crowned, panicked }
 }
 
-/// Phase: takes immigrants in. On a map they compete for their cells like everybody else.
+/// The randomness of who survives a generation.
+fn fate(source: Source, generation: u32) -> Stream {
+    source.stream(generation, u32::MAX, Purpose::Survival)
+}
+
+/// Phase: takes immigrants in. Where there are cells they compete for them like everybody else.
 fn take_in<P: Problem>(
     problem: &P,
     population: Population<P::Gene>,
@@ -164,12 +169,16 @@ fn take_in<P: Problem>(
     archipelago: &Archipelago,
     moment: Moment,
 ) -> Population<P::Gene> {
-    match archipelago.strategy.survival {
-        Survival::MapElites { bins } => {
-            let migrants = migration::in_order(immigrants).cloned();
-            map_elites::fill(problem, bins, population.into_iter().chain(migrants))
+    let survival = archipelago.strategy.survival;
+    match survival.has_cells() {
+        true => {
+            let migrants = migration::in_order(immigrants).cloned().collect();
+            let mut fate = fate(moment.source, moment.generation);
+            survival.survivors(problem, &population, migrants, 0, &mut fate)
         }
-        _ => migration::immigrate(problem, population, immigrants, &archipelago.migration, moment),
+        false => {
+            migration::immigrate(problem, population, immigrants, &archipelago.migration, moment)
+        }
     }
 }
 

@@ -125,7 +125,7 @@ impl Lineage {
         for id in self.ancestors(ids)? {
             let parents = self.birth(id).ok_or(Gap::Unknown(id))?.parents;
             let [mother, father] = parents.map(|id| id.map(|id| &genomes[&id][..]));
-            let strategy = &archipelago.strategy.on(id.island, &self.memory_at(id));
+            let strategy = &archipelago.strategy.on(id.island, self.amount_scale_at(id));
             let (source, index) = (archipelago.source(id.island), id.index as usize);
             let moment = Moment { source, generation: id.generation };
             let genome = match mother {
@@ -150,10 +150,9 @@ impl Lineage {
     }
 
     /// What an individual's island knew when it was bred, as far as breeding it depends on it.
-    fn memory_at(&self, id: Id) -> Memory {
+    fn amount_scale_at(&self, id: Id) -> f64 {
         let births = self.islands.get(&id.island).and_then(|all| all.get(id.generation as usize));
-        let amount_scale = births.map_or(1.0, |births| births.amount_scale);
-        Memory { amount_scale, ..Memory::default() }
+        births.map_or(1.0, |births| births.amount_scale)
     }
 
     /// All ancestors of individuals and themselves, parents before their offspring.

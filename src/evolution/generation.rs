@@ -2,13 +2,13 @@
 //! and [`evaluate`]. Who survives is [`super::survival`]'s.
 
 use super::fitness::{Evaluation, Fitness, Outcome};
+use super::gene::Gene;
 use super::hurdles::Hurdles;
 use super::individual::{Id, Individual};
 use super::memory::Memory;
 use super::population::{Population, ranking};
-use super::problem::{Gene, Problem};
+use super::problem::Problem;
 use super::strategy::{Reproduction, Strategy};
-use super::survival::{Survival, crowding, niching};
 use super::variation::happens;
 use super::variation::sequences::Layout;
 use crate::rng::{Purpose, Source};
@@ -125,7 +125,7 @@ pub fn reproduce<P: Problem>(
     let random = |index| moment.newborn(index, first(problem, strategy, moment, index));
     match strategy.reproduction {
         Reproduction::Parents => {
-            let newcomers = usize::from(strategy.survival == Survival::Afpo).min(brood);
+            let newcomers = strategy.survival.newcomers().min(brood);
             let couples = select(problem, population, strategy, moment, brood - newcomers);
             let mut offspring = vary(problem, population, &couples, strategy, moment);
             offspring.extend((couples.len()..brood).map(random));
@@ -166,12 +166,7 @@ pub fn select<P: Problem>(
 ) -> Vec<[usize; 2]> {
     let Moment { source, generation } = moment;
     let stream = |index| source.stream(generation, index as u32, Purpose::Selection);
-    let fitness: Vec<Fitness> = match strategy.survival {
-        Survival::Crowding => return crowding::couples(population.len(), &mut stream(0)),
-        Survival::Sharing { radius } => niching::shared(problem, population, radius),
-        _ => population.iter().map(|i| i.fitness).collect(),
-    };
-    strategy.parenthood().prepare(&fitness).couples(offspring, stream)
+    strategy.survival.couples(problem, population, strategy.selection, offspring, stream)
 }
 
 /// Phase: recombines and mutates.

@@ -9,8 +9,6 @@
 
 use super::fitness::Fitness;
 use super::individual::Individual;
-use super::strategy::Strategy;
-use super::survival::Survival;
 
 /// What a genome has to get over to be tried further.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,16 +32,17 @@ impl Hurdles {
 
     /// Those of the offspring of some residents.
     ///
-    /// Looks decide only where each generation makes room for the next: elsewhere an estimate could stay.
-    pub fn of<G>(residents: &[Individual<G>], strategy: &Strategy) -> Self {
+    /// Looks decide only where each generation makes room for the next
+    /// ([`Survival::forgets`](super::Survival::forgets)): elsewhere an estimate could stay.
+    pub fn of<G>(residents: &[Individual<G>], forgets: bool) -> Self {
         let mut fitness: Vec<Fitness> = residents.iter().map(|one| one.fitness).collect();
         fitness.sort_unstable();
         let or_none = |hurdle: Option<&Fitness>| hurdle.copied().unwrap_or(Fitness::WORST);
-        let looks = match strategy.survival {
-            Survival::Generational | Survival::Drifting => std::array::from_fn(|look| {
+        let looks = match forgets {
+            true => std::array::from_fn(|look| {
                 or_none(fitness.get(fitness.len() * (look + 1) / (LOOKS + 1)))
             }),
-            _ => [Fitness::WORST; LOOKS],
+            false => [Fitness::WORST; LOOKS],
         };
         Self { looks, best: or_none(fitness.last()) }
     }
@@ -52,7 +51,7 @@ impl Hurdles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolution::Id;
+    use crate::evolution::{Id, Survival};
 
     fn residents(scores: &[f64]) -> Vec<Individual<f64>> {
         let id = Id { island: 0, generation: 0, index: 0 };
@@ -69,16 +68,15 @@ mod tests {
     #[test]
     fn quarters_of_the_residents_fail_at_the_looks_and_none_is_above_the_last_hurdle() {
         let residents = residents(&[3.0, 9.0, 1.0, 7.0, f64::NAN, 5.0, 4.0, 6.0]);
-        let hurdles = Hurdles::of(&residents, &Strategy::default());
+        let hurdles = Hurdles::of(&residents, true);
         let looks = [3.0, 5.0, 7.0].map(Fitness::new);
         assert_eq!(hurdles, Hurdles { looks, best: Fitness::new(9.0) });
     }
 
     #[test]
     fn where_residents_stay_no_look_decides() {
-        let strategy = Strategy { survival: Survival::Crowding, ..Strategy::default() };
-        let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), &strategy);
+        let hurdles = Hurdles::of(&residents(&[3.0, 9.0, 1.0]), Survival::Crowding.forgets());
         assert_eq!(hurdles, Hurdles { best: Fitness::new(9.0), ..Hurdles::NONE });
-        assert_eq!(Hurdles::of(&residents(&[]), &strategy), Hurdles::NONE);
+        assert_eq!(Hurdles::of(&residents(&[]), false), Hurdles::NONE);
     }
 }

@@ -1,8 +1,8 @@
 //! What an island knows besides its population.
 
 use super::cma::Cma;
+use super::gene::Gene;
 use super::individual::Individual;
-use super::problem::Gene;
 use super::strategy::{Adaptation, Reproduction, Strategy};
 use crate::rng::Stream;
 use serde::{Deserialize, Serialize};

@@ -4,13 +4,14 @@
 //! evaluated genome with a parentage, a [`Population`] an ordered list of them; [`Selection`] picks parents,
 //! [`variation`] recombines and mutates, [`survival`] decides who stays; [`generation`] has these phases,
 //! [`Strategy`] says which of each, and [`memory`] is what an island learns on the way. [`hurdles`] say how far an
-//! evaluation has to go, and [`sharing`] deals evaluations out to threads.
+//! evaluation has to go.
 //!
 //! Architecture invariant: pure. Nothing here knows a creature, a clock, a file or a process, and every
 //! stochastic function takes the stream it draws from.
 
 pub mod cma;
 pub mod fitness;
+pub mod gene;
 pub mod generation;
 pub mod hurdles;
 pub mod individual;
@@ -18,7 +19,6 @@ pub mod memory;
 pub mod population;
 pub mod problem;
 pub mod selection;
-pub mod sharing;
 pub mod strategy;
 pub mod survival;
 pub mod variation;
@@ -27,11 +27,12 @@ pub mod variation;
 mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
+pub use gene::Gene;
 pub use hurdles::{Hurdles, LOOKS};
 pub use individual::{Id, Individual};
 pub use memory::Memory;
 pub use population::{Population, Spread, Statistics};
-pub use problem::{Gene, Problem};
+pub use problem::Problem;
 pub use selection::Selection;
 pub use strategy::{Adaptation, Reproduction, Strategy};
 pub use survival::Survival;

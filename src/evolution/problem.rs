@@ -1,34 +1,12 @@
 //! What is to be solved.
 
 use super::fitness::{Evaluation, Fitness};
+use super::gene::Gene;
 use super::hurdles::Hurdles;
-use super::sharing;
-use super::variation::sequences::Layout;
-use super::variation::{self, Variation};
+use super::variation::sequences::{self, Layout};
+use super::variation::{self, Variation, happens};
 use crate::rng::Stream;
-use bytemuck::Pod;
-use serde::{Serialize, de::DeserializeOwned};
-use std::fmt::Debug;
-
-/// What a genome is a sequence of: plain data that may cross a process boundary as it lies in memory.
-pub trait Gene: Pod + PartialEq + Debug + Send + Sync + Serialize + DeserializeOwned {
-    /// The name under which genes of this layout travel; change it when the layout changes.
-    const WIRE_NAME: &'static str;
-
-    /// Whether a gene that came from a file or another process may be used.
-    fn is_valid(&self) -> bool;
-
-    /// The real numbers that it is made of, each from 0 to [`VALUE_MAX`](variation::values::VALUE_MAX), always as many;
-    /// none if it is made of something else.
-    fn values(&self) -> &[f64] {
-        &[]
-    }
-
-    /// The same, to be changed.
-    fn values_mut(&mut self) -> &mut [f64] {
-        &mut []
-    }
-}
+use crate::work_queue;
 
 /// A problem to evolve solutions for: the one open trait of the crate.
 ///
@@ -100,12 +78,21 @@ pub trait Problem: Sync + Sized {
         variation: &Variation,
         rng: &mut Stream,
     ) -> Vec<Self::Gene> {
-        variation::recombine(self, a, b, variation, rng)
+        variation::recombine(a, b, self.layout(), variation, rng)
     }
 
-    /// Mutates a genome.
+    /// Mutates a genome as `variation` says: its values and, where it may be of any length, its genes.
     fn mutate(&self, genome: &mut Vec<Self::Gene>, variation: &Variation, rng: &mut Stream) {
-        variation::mutate(self, genome, variation, rng);
+        genome.iter_mut().for_each(|gene| self.mutate_gene(gene, variation, rng));
+        if self.layout() == Layout::Fixed {
+            return;
+        }
+        let Variation { shrink_rate, grow_rate, duplicate_rate, genes_max, .. } = *variation;
+        sequences::shrink(genome, shrink_rate, rng);
+        sequences::grow(genome, grow_rate, genes_max, rng, |rng| self.random_gene(rng));
+        if happens(duplicate_rate, rng) {
+            self.duplicate(genome, genes_max, rng);
+        }
     }
 
     /// What a genome is like besides being good: two numbers from 0 to 1, by which phenotypes are told apart and laid
@@ -129,7 +116,7 @@ pub trait Problem: Sync + Sized {
     /// first; results are in the order given.
     fn estimate_batch(&self, genomes: &[&[Self::Gene]], hurdles: &Hurdles) -> Vec<Evaluation> {
         let costs: Vec<u64> = genomes.iter().map(|genome| self.cost(genome)).collect();
-        sharing::dearest_first(&costs, |index| self.estimate(genomes[index], hurdles))
+        work_queue::dearest_first(&costs, |index| self.estimate(genomes[index], hurdles))
     }
 
     /// Scores many genomes wholly.

@@ -1,6 +1,5 @@
 //! How one island's population evolves.
 
-use super::memory::Memory;
 use super::selection::Selection;
 use super::survival::Survival;
 use super::variation::Variation;
@@ -93,19 +92,19 @@ impl std::str::FromStr for Adaptation {
 const RATES: ([f64; 3], [f64; 3]) = ([0.3, 0.6, 1.0], [1.0, 0.1, 10.0]);
 
 impl Strategy {
-    /// The strategy of one island, with what it has learned so far.
+    /// The strategy of one island, where the amount of point mutation is multiplied by what it has learned so far.
     ///
     /// Heterogeneous islands share out all pairs of three crossover rates (0.3, 0.6, 1) and three point rates (a tenth
     /// of the usual one, it, and ten times it), so that nobody has to know the best one: the distributed GA with
     /// distributed parameters (Miki, Hiroyasu, Kaneko & Hatanaka 1999). Nine islands have every pair.
-    pub fn on(&self, island: u32, memory: &Memory) -> Strategy {
+    pub fn on(&self, island: u32, amount_scale: f64) -> Strategy {
         let mut variation = self.variation;
         if self.heterogeneous {
             let (crossover, point) = (island % 3, (island + island / 3) % 3);
             variation.crossover_rate = RATES.0[crossover as usize];
             variation.point_rate = (variation.point_rate * RATES.1[point as usize]).min(1.0);
         }
-        variation.point_amount = (variation.point_amount * memory.amount_scale).min(1.0);
+        variation.point_amount = (variation.point_amount * amount_scale).min(1.0);
         Strategy { variation, ..*self }
     }
 
@@ -114,19 +113,8 @@ impl Strategy {
         self.population - if self.survival.has_elites() { self.elites } else { 0 }
     }
 
-    /// How parents are picked: uniformly where a scheme of survival has it so, since it is that which selects.
-    pub fn parenthood(&self) -> Selection {
-        match self.survival {
-            Survival::MapElites { .. } | Survival::Afpo => Selection::Tournament { size: 1 },
-            _ => self.selection,
-        }
-    }
-
-    /// How many individuals a population may have: a map has as many as cells are filled.
+    /// How many individuals a population may have.
     pub fn sizes(&self) -> RangeInclusive<usize> {
-        match self.survival {
-            Survival::MapElites { bins } => 1..=(bins * bins) as usize,
-            _ => self.population..=self.population,
-        }
+        self.survival.sizes(self.population)
     }
 }

@@ -8,8 +8,9 @@ use super::fixed;
 use super::functions::{Facts, Function};
 use crate::evolution::variation::sequences::Layout;
 use crate::evolution::variation::values::normal;
-use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem, sharing};
+use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem};
 use crate::rng::{Purpose, Source, Stream};
+use crate::work_queue;
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -178,7 +179,7 @@ impl Problem for Benchmark {
         if costs.iter().sum::<u64>() < WORTH_SHARING {
             return genomes.iter().map(|genome| self.evaluate(genome)).collect();
         }
-        sharing::dearest_first(&costs, |index| self.evaluate(genomes[index]))
+        work_queue::dearest_first(&costs, |index| self.evaluate(genomes[index]))
     }
 
     /// An error of a millionth is no zero.

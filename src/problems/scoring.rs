@@ -4,8 +4,9 @@
 use super::locomotion::Locomotion;
 use super::validation::Validation;
 use crate::creature::Creature;
-use crate::evolution::{Fitness, Hurdles, LOOKS, Outcome, sharing};
+use crate::evolution::{Fitness, Hurdles, LOOKS, Outcome};
 use crate::simulation::{self, Engine, Trial};
+use crate::work_queue;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// So many trials has who was looked at once, twice, three times: who is worse than a quarter, half or three quarters
@@ -218,7 +219,7 @@ impl Locomotion {
         let trials: Vec<Trial> = (0..trials).map(trial).collect();
         let groups: Vec<&[Trial]> =
             trials.chunks(simulation::at_a_time(engine, usual.ground)).collect();
-        let tried = sharing::dearest_first(&vec![1; groups.len()], |group| {
+        let tried = work_queue::dearest_first(&vec![1; groups.len()], |group| {
             let scores = || problem.try_each(creature, groups[group]);
             catch_unwind(AssertUnwindSafe(scores))
                 .unwrap_or_else(|_| vec![Err(Outcome::Panicked); groups[group].len()])

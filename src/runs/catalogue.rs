@@ -31,9 +31,9 @@ impl Config {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::evolution::{Selection, Survival, Variation};
-    use crate::runs::config::{SETTINGS, Wish};
+    use crate::evolution::{Selection, Variation};
     use crate::rng::{Purpose, Source};
+    use crate::runs::config::{SETTINGS, Wish};
 
     fn usual(problem: Kind) -> Config {
         Config::default_for(Wish { problem: Some(problem), ..Wish::default() })
@@ -51,7 +51,8 @@ mod tests {
             config.check().unwrap_or_else(|failure| panic!("{problem}: {failure}"));
             let text = config.to_toml();
             assert_eq!(Config::parse(&text).as_ref(), Ok(&config), "{problem}");
-            let is_said = |name: &&str| text.lines().any(|line| line.starts_with(&format!("{name} =")));
+            let is_said =
+                |name: &&str| text.lines().any(|line| line.starts_with(&format!("{name} =")));
             assert_eq!(useless(problem).into_iter().find(is_said), None, "{problem}: {text}");
             assert_eq!(Config::parse(&format!("problem = \"{problem}\"")), Ok(usual(problem)));
             assert_eq!(problem.to_string().parse(), Ok(problem));

@@ -1,9 +1,9 @@
 //! What came out of a run: gathered from what its islands wrote.
 
-use super::kind::Kind;
 use super::config::Config;
 use super::failure::Failure;
 use super::kept::kept;
+use super::kind::Kind;
 use super::map_output;
 use super::reports::Reports;
 use super::subject::Subject;

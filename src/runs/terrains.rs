@@ -5,7 +5,6 @@
 
 use crate::formats::terrain::{self, BYTES_MAX, Sizing};
 use crate::runs::Failure;
-use crate::runs::config::Config;
 use crate::simulation::Terrain;
 use crate::store::{RunDir, file};
 use serde::{Deserialize, Serialize};

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The floor of each module: it imports only from lower ones.
-const FLOORS: [(&str, u8); 16] = [
+const FLOORS: [(&str, u8); 17] = [
     ("choice", 0),
     ("rng", 0),
     ("statistics", 0),
+    ("work_queue", 0),
     ("evolution", 1),
     ("creature", 1),
     ("archipelago", 2),

@@ -262,9 +262,9 @@ fn check_table(place: &str, table: &Table) -> Result<(), String> {
 
 /// Whether a run knows such a setting, with such a value; whether they go together is checked when all are there.
 fn check_setting(place: &str, key: &str, value: &Value) -> Result<(), String> {
-    let refused = SETTINGS.iter().filter_map(|setting| {
-        Some((setting.name.as_str(), setting.about.not_in_experiments?))
-    });
+    let refused = SETTINGS
+        .iter()
+        .filter_map(|setting| Some((setting.name.as_str(), setting.about.not_in_experiments?)));
     if let Some((_, instead)) = refused.chain(REFUSED).find(|(refused, _)| *refused == key) {
         return Err(format!("{place} must not say {key}: {instead}"));
     }

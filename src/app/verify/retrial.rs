@@ -2,9 +2,10 @@
 
 use super::check::{Check, counted};
 use crate::app::console::{Stopwatch, say};
-use crate::evolution::{Fitness, Gene, sharing};
+use crate::evolution::{Fitness, Gene};
 use crate::runs::config::Config;
 use crate::runs::subject::Subject;
+use crate::work_queue;
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -128,7 +129,7 @@ fn evaluate<'a, P: Subject>(
     let trials: Vec<_> = trials.into_iter().collect();
     let meter = Meter::new(trials.len());
     let costs: Vec<u64> = trials.iter().map(|(_, claim)| problem.cost(claim.genome)).collect();
-    let found = sharing::dearest_first(&costs, |index| {
+    let found = work_queue::dearest_first(&costs, |index| {
         let (key, claim) = trials[index];
         let found = match claim.by {
             Measure::Whole => vec![problem.evaluate(claim.genome).fitness],

@@ -10,7 +10,7 @@ use crate::archipelago::{
 };
 use crate::evolution::generation::Effort;
 use crate::evolution::population::best;
-use crate::evolution::{Fitness, Gene, Id, Memory, Reproduction, Survival};
+use crate::evolution::{Fitness, Gene, Id, Memory, Reproduction};
 use crate::runs::config::Config;
 use crate::runs::subject::Subject;
 use crate::store::{Checkpoint, Entry};
@@ -259,13 +259,13 @@ impl<'a> Terms<'a> {
 
     /// Whether the population is a map, which may have fewer individuals than are to be sent.
     fn is_map(&self) -> bool {
-        matches!(self.archipelago.strategy.survival, Survival::MapElites { .. })
+        self.archipelago.strategy.survival.has_cells()
     }
 
     /// Whether somebody without parents may be born after generation 0.
     fn has_newcomers(&self) -> bool {
         let strategy = &self.archipelago.strategy;
-        strategy.survival == Survival::Afpo || strategy.reproduction != Reproduction::Parents
+        strategy.survival.newcomers() > 0 || strategy.reproduction != Reproduction::Parents
     }
 
     /// Whether the best of a population lives on.

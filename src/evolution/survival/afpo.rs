@@ -1,11 +1,55 @@
 //! Age-fitness Pareto optimisation (Schmidt & Lipson 2010): the young compete with the young, so that what is new has
 //! time to become good. Parents are picked at random, and a random newcomer comes with each generation.
 
+use super::scheme::{Scheme, at_random};
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
+use crate::evolution::problem::Problem;
+use crate::evolution::selection::Selection;
 use crate::rng::Stream;
 use rand::RngExt;
 use std::cmp::Reverse;
+
+/// [`pareto`] tournaments, with one random newcomer a generation.
+#[derive(Debug, Clone, Copy)]
+pub struct Afpo;
+
+impl Scheme for Afpo {
+    fn survivors<P: Problem>(
+        self,
+        _: &P,
+        old: &[Individual<P::Gene>],
+        brood: Population<P::Gene>,
+        _: usize,
+        rng: &mut Stream,
+    ) -> Population<P::Gene> {
+        pareto(old, brood, rng)
+    }
+
+    /// Parents are picked at random: survival selects.
+    fn couples<P: Problem>(
+        self,
+        _: &P,
+        population: &[Individual<P::Gene>],
+        _: Selection,
+        offspring: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        at_random(population, offspring, stream)
+    }
+
+    fn has_elites(self) -> bool {
+        false
+    }
+
+    fn forgets(self) -> bool {
+        false
+    }
+
+    fn newcomers(self) -> usize {
+        1
+    }
+}
 
 /// As many of the old population and its offspring as the old one has. Age is counted from the birth of the oldest
 /// ancestor.

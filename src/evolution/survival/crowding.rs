@@ -4,11 +4,49 @@
 //! Two parents have two children. In the paper those are the two halves of one crossover; here each is bred like any
 //! other offspring, one with either parent as its mother.
 
+use super::scheme::Scheme;
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
+use crate::evolution::selection::Selection;
 use crate::rng::Stream;
 use rand::seq::SliceRandom;
+
+/// An offspring replaces the parent that is more like it, if it is better.
+#[derive(Debug, Clone, Copy)]
+pub struct Crowding;
+
+impl Scheme for Crowding {
+    fn survivors<P: Problem>(
+        self,
+        problem: &P,
+        old: &[Individual<P::Gene>],
+        brood: Population<P::Gene>,
+        _: usize,
+        _: &mut Stream,
+    ) -> Population<P::Gene> {
+        crowd(problem, old, brood)
+    }
+
+    fn couples<P: Problem>(
+        self,
+        _: &P,
+        population: &[Individual<P::Gene>],
+        _: Selection,
+        _: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        couples(population.len(), &mut stream(0))
+    }
+
+    fn has_elites(self) -> bool {
+        false
+    }
+
+    fn forgets(self) -> bool {
+        false
+    }
+}
 
 /// The parents of as many offspring as there are individuals: pairs at random, each twice, one way round and the other.
 /// Of an odd number one is left, and is its own mate.

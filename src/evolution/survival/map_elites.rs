@@ -1,12 +1,65 @@
 //! MAP-Elites (Mouret & Clune 2015): a map of what is possible, with the best that is known in each of its cells.
 
+use super::scheme::{Scheme, at_random};
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
+use crate::evolution::selection::Selection;
+use crate::rng::Stream;
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 /// The most cells along a feature.
 pub const BINS_MAX: u32 = 64;
+
+/// The population is the best of each cell of a map of features: see [`fill`].
+#[derive(Debug, Clone, Copy)]
+pub struct MapElites {
+    /// Cells along each of the two features, 2 to [`BINS_MAX`].
+    pub bins: u32,
+}
+
+impl Scheme for MapElites {
+    fn survivors<P: Problem>(
+        self,
+        problem: &P,
+        old: &[Individual<P::Gene>],
+        brood: Population<P::Gene>,
+        _: usize,
+        _: &mut Stream,
+    ) -> Population<P::Gene> {
+        fill(problem, self.bins, old.iter().cloned().chain(brood))
+    }
+
+    /// Parents are picked at random: survival selects.
+    fn couples<P: Problem>(
+        self,
+        _: &P,
+        population: &[Individual<P::Gene>],
+        _: Selection,
+        offspring: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        at_random(population, offspring, stream)
+    }
+
+    fn has_elites(self) -> bool {
+        false
+    }
+
+    fn forgets(self) -> bool {
+        false
+    }
+
+    fn has_cells(self) -> bool {
+        true
+    }
+
+    /// As many as cells are filled.
+    fn sizes(self, _: usize) -> RangeInclusive<usize> {
+        1..=(self.bins * self.bins) as usize
+    }
+}
 
 /// The best individual of each cell, the first of equal ones, in the order of the cells. What could not be scored has
 /// no place, unless there is nothing else: then the first of all is the whole map.

@@ -1,29 +1,35 @@
-//! Who lives on.
+//! Who lives on: each [scheme](scheme::Scheme) is a file, and all that it changes of a generation is in it. Here they
+//! are listed, by the names that they are chosen by.
 
 pub mod afpo;
 pub mod crowding;
+pub mod elitist;
 pub mod map_elites;
-pub mod niching;
+pub mod scheme;
+pub mod sharing;
 
 use super::individual::Individual;
-use super::population::{Population, ranking};
+use super::population::Population;
 use super::problem::Problem;
+use super::selection::Selection;
 use crate::choice;
 use crate::rng::Stream;
+use scheme::Scheme;
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 /// How the next population is made of the old one and its offspring.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Survival {
-    /// [`elitist`]: the offspring replace all but the elites.
+    /// [`elitist::elitist`]: the offspring replace all but the elites.
     Generational,
     /// The same, but of equally good ones the youngest counts as the best: what changes nothing stays, so that search
     /// drifts over what is flat (Kimura 1968; plateaus of a (1 + λ): Jansen & Wegener 2001).
     Drifting,
-    /// As generational, but parents are picked by their [`niching::shared`] fitness.
+    /// As generational, but parents are picked by their [`sharing::shared`] fitness.
     Sharing {
         /// The distance from which on two individuals share nothing, above 0, at most 1.
         radius: f64,
@@ -77,9 +83,26 @@ impl FromStr for Survival {
 
 choice::as_text!(Survival);
 
+/// Does something with the scheme that is chosen.
+macro_rules! with {
+    ($survival:expr, $scheme:ident => $done:expr) => {
+        match $survival {
+            Survival::Generational => with!(@ $scheme = elitist::Generational => $done),
+            Survival::Drifting => with!(@ $scheme = elitist::Drifting => $done),
+            Survival::Sharing { radius } => with!(@ $scheme = sharing::Sharing { radius } => $done),
+            Survival::Crowding => with!(@ $scheme = crowding::Crowding => $done),
+            Survival::Afpo => with!(@ $scheme = afpo::Afpo => $done),
+            Survival::MapElites { bins } => with!(@ $scheme = map_elites::MapElites { bins } => $done),
+        }
+    };
+    (@ $scheme:ident = $chosen:expr => $done:expr) => {{
+        let $scheme = $chosen;
+        $done
+    }};
+}
+
 impl Survival {
-    /// The next population: `old` is the one whose offspring `brood` is. The stream is drawn from by those that leave it
-    /// to chance who dies.
+    /// The next population: [`Scheme::survivors`].
     pub fn survivors<P: Problem>(
         self,
         problem: &P,
@@ -88,45 +111,50 @@ impl Survival {
         elites: usize,
         rng: &mut Stream,
     ) -> Population<P::Gene> {
-        match self {
-            Survival::Generational | Survival::Sharing { .. } => elitist(old, brood, elites),
-            Survival::Drifting => brood.into_iter().chain(elite(old, elites)).collect(),
-            Survival::Crowding => crowding::crowd(problem, old, brood),
-            Survival::Afpo => afpo::pareto(old, brood, rng),
-            Survival::MapElites { bins } => {
-                map_elites::fill(problem, bins, old.iter().cloned().chain(brood))
-            }
-        }
+        with!(self, scheme => scheme.survivors(problem, old, brood, elites, rng))
     }
 
-    /// Whether the best of the old population are kept as elites. Elsewhere all of it lives on as far as the new one is no
-    /// better.
+    /// The parents of each of so many offspring: [`Scheme::couples`].
+    pub fn couples<P: Problem>(
+        self,
+        problem: &P,
+        population: &[Individual<P::Gene>],
+        selection: Selection,
+        offspring: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        with!(self, scheme => scheme.couples(problem, population, selection, offspring, stream))
+    }
+
+    /// Whether there are elites, and parents are picked by selection: [`Scheme::has_elites`].
     pub fn has_elites(self) -> bool {
-        !matches!(self, Survival::Crowding | Survival::Afpo | Survival::MapElites { .. })
+        with!(self, scheme => scheme.has_elites())
     }
 
-    /// Whether parents are picked as [`Selection`](super::Selection) says. Elsewhere it is survival that selects.
-    pub fn selects_parents(self) -> bool {
-        self.has_elites()
+    /// How parents are picked if nothing is said: [`Scheme::usual_selection`].
+    pub fn usual_selection(self) -> Option<Selection> {
+        with!(self, scheme => scheme.usual_selection())
     }
-}
 
-/// Generational replacement with elitism (De Jong 1975): the best `elites` of the old population,
-/// unchanged and first, then the offspring.
-pub fn elitist<G: Clone>(
-    old: &[Individual<G>],
-    offspring: Population<G>,
-    elites: usize,
-) -> Population<G> {
-    elite(old, elites).chain(offspring).collect()
-}
+    /// Offspring of a generation without parents: [`Scheme::newcomers`].
+    pub fn newcomers(self) -> usize {
+        with!(self, scheme => scheme.newcomers())
+    }
 
-/// The best of a population; of equal ones the first.
-fn elite<G: Clone>(
-    population: &[Individual<G>],
-    elites: usize,
-) -> impl Iterator<Item = Individual<G>> {
-    ranking(population).into_iter().take(elites).map(|index| population[index].clone())
+    /// Whether individuals compete for cells: [`Scheme::has_cells`].
+    pub fn has_cells(self) -> bool {
+        with!(self, scheme => scheme.has_cells())
+    }
+
+    /// How many individuals there may be: [`Scheme::sizes`].
+    pub fn sizes(self, population: usize) -> RangeInclusive<usize> {
+        with!(self, scheme => scheme.sizes(population))
+    }
+
+    /// Whether an estimate of somebody's fitness changes nothing for long: [`Scheme::forgets`].
+    pub fn forgets(self) -> bool {
+        with!(self, scheme => scheme.forgets())
+    }
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::evolution::generation::{Moment, select};
+use crate::evolution::population::ranking;
 use crate::evolution::{Evaluation, Fitness, Gene, Id, Strategy};
 use crate::rng::{Purpose, Source};
 use bytemuck::{Pod, Zeroable};
@@ -78,7 +79,7 @@ fn indices(population: &[Individual<Place>]) -> Vec<u32> {
 fn elites_live_on_before_their_offspring() {
     let old = [one(0, 0.0, 1.0), one(1, 0.0, 3.0), one(2, 0.0, 2.0)];
     let brood = vec![one(3, 0.0, 0.0)];
-    assert_eq!(indices(&elitist(&old, brood, 2)), [1, 2, 3]);
+    assert_eq!(indices(&elitist::elitist(&old, brood, 2)), [1, 2, 3]);
 }
 
 #[test]
@@ -207,12 +208,12 @@ fn under_age_fitness_pareto_newcomers_breed_like_everybody_else() {
 #[test]
 fn who_lives_alone_keeps_its_fitness_and_a_crowd_shares_one() {
     let crowd = [one(0, 0.5, 3.0), one(1, 0.5, 3.0), one(2, 0.9, 3.0), one(3, 0.1, 1.0)];
-    let shared = niching::shared(&Line, &crowd, 0.1);
+    let shared = sharing::shared(&Line, &crowd, 0.1);
     assert_eq!(shared[0], shared[1]);
     assert_eq!(shared[2].get(), 2.0 * shared[0].get());
     assert_eq!(shared[3].get(), 0.0);
     let failed = [one(0, 0.5, f64::NAN), one(1, 0.5, 1.0)];
-    assert_eq!(niching::shared(&Line, &failed, 0.1)[0], Fitness::WORST);
+    assert_eq!(sharing::shared(&Line, &failed, 0.1)[0], Fitness::WORST);
 }
 
 #[test]

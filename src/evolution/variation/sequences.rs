@@ -1,6 +1,6 @@
 //! Operators on sequences of genes, whatever a gene is.
 
-use super::happens;
+use super::operators::happens;
 use crate::rng::Stream;
 use rand::RngExt;
 

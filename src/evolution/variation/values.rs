@@ -1,7 +1,7 @@
 //! Operators on real numbers from 0 (included) to 1 (excluded): what genes of any problem are made of, whatever they
 //! stand for.
 
-use super::{Crossover, Mutation, Variation, happens};
+use super::operators::{Crossover, Mutation, Variation, happens};
 use crate::rng::Stream;
 use rand::RngExt;
 use std::f64::consts::TAU;

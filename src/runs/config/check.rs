@@ -86,11 +86,8 @@ impl Config {
     /// have been checked.
     fn check_use(&self) -> Result<(), Failure> {
         let Self { problem, dimensions, survival, algorithm, .. } = *self;
-        let wish = Wish {
-            problem: Some(problem),
-            dimensions: Some(dimensions),
-            survival: Some(survival),
-        };
+        let wish =
+            Wish { problem: Some(problem), dimensions: Some(dimensions), survival: Some(survival) };
         let (said, usual) = (self.table()?, Self::default_for(wish).table()?);
         let is_useless = |about: &About| {
             [
@@ -99,7 +96,8 @@ impl Config {
                 (!(about.problem)(problem)).then(|| (problem.to_string(), "problem")),
             ]
         };
-        let flags = SETTINGS.iter().map(|setting| (setting.name.as_str(), is_useless(&setting.about)));
+        let flags =
+            SETTINGS.iter().map(|setting| (setting.name.as_str(), is_useless(&setting.about)));
         let of_bodies = is_useless(&setting::of(Section::Creatures).tries_bodies());
         let files = FILES_OF_BODIES.map(|name| (name, of_bodies.clone()));
         for (name, useless) in flags.chain(files) {

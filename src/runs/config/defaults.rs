@@ -21,11 +21,8 @@ impl Config {
     /// often than evolved.
     pub fn default_for(wish: Wish) -> Self {
         let usual = Self::default_of(wish);
-        match wish.survival {
-            // With tournaments the niches of fitness sharing come and go (Oei, Goldberg & Chang 1991).
-            Some(Survival::Sharing { .. }) => Self { selection: Selection::Sus, ..usual },
-            _ => usual,
-        }
+        let selection = wish.survival.and_then(Survival::usual_selection);
+        Self { selection: selection.unwrap_or(usual.selection), ..usual }
     }
 
     fn default_of(wish: Wish) -> Self {

@@ -70,7 +70,7 @@ settings! {
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION; with --survival
     /// sharing the default is sus
     selection: Selection => archipelago.strategy.selection,
-        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::selects_parents);
+        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::has_elites);
     /// Number of the best that live on unchanged
     elites: usize => archipelago.strategy.elites,
         of(GeneticAlgorithm).value("E").for_survival(Survival::has_elites), in |it| 0.0..=it.population as f64 - 1.0;

@@ -1,8 +1,53 @@
 //! Fitness sharing (Goldberg & Richardson 1987): who lives in a crowd shares its fitness with it.
 
+use super::elitist::elitist;
+use super::scheme::Scheme;
 use crate::evolution::fitness::Fitness;
 use crate::evolution::individual::Individual;
+use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
+use crate::evolution::selection::Selection;
+use crate::rng::Stream;
+
+/// Generational replacement, where parents are picked by their [`shared`] fitness.
+#[derive(Debug, Clone, Copy)]
+pub struct Sharing {
+    /// The distance from which on two individuals share nothing, above 0, at most 1.
+    pub radius: f64,
+}
+
+impl Scheme for Sharing {
+    fn survivors<P: Problem>(
+        self,
+        _: &P,
+        old: &[Individual<P::Gene>],
+        brood: Population<P::Gene>,
+        elites: usize,
+        _: &mut Stream,
+    ) -> Population<P::Gene> {
+        elitist(old, brood, elites)
+    }
+
+    fn couples<P: Problem>(
+        self,
+        problem: &P,
+        population: &[Individual<P::Gene>],
+        selection: Selection,
+        offspring: usize,
+        stream: impl Fn(usize) -> Stream,
+    ) -> Vec<[usize; 2]> {
+        selection.prepare(&shared(problem, population, self.radius)).couples(offspring, stream)
+    }
+
+    /// With tournaments the niches come and go (Oei, Goldberg & Chang 1991).
+    fn usual_selection(self) -> Option<Selection> {
+        Some(Selection::Sus)
+    }
+
+    fn forgets(self) -> bool {
+        false
+    }
+}
 
 /// The fitness by which parents are picked: how far it is above the least of the population, divided by the size of the
 /// niche. Every other individual adds to the niche the more, the nearer it is, and nothing from `radius` on.
