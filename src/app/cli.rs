@@ -145,6 +145,13 @@ pub struct OutputArgs {
     pub json: bool,
 }
 
+impl OutputArgs {
+    /// Whether a monitor films the run.
+    pub fn films(&self) -> bool {
+        cfg!(feature = "view") && !self.no_monitor
+    }
+}
+
 /// How a run is watched while it goes on.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct ViewArgs {

@@ -1,7 +1,7 @@
 //! What a film says of its run.
 
 use super::film::Pace;
-use super::scenery::Track;
+use super::track::Track;
 use crate::simulation::Ground;
 
 /// What a recording says of its run.

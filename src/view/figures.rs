@@ -1,9 +1,9 @@
 //! The curves of a replay: how far and how fast each creature is.
 
 use super::card::{Program, RunCard};
-use super::clip::Take;
 use super::extent::every;
 use super::film::Screening;
+use super::take::Take;
 use super::{ViewError, palette};
 use libm::hypotf;
 use rerun::{RecordingStream, Scalars, SeriesLines};

@@ -3,8 +3,8 @@
 //! All links of one kind of solid are one entity: their sizes are one row at the start, their poses one
 //! batch for the whole clip.
 
-use super::clip::Take;
 use super::extent::{along_z, every};
+use super::take::Take;
 use super::{ViewError, palette};
 use crate::creature::morphology::{JointKind, Shape};
 use crate::creature::{Link, Motor};

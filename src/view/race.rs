@@ -2,7 +2,8 @@
 
 use super::ViewError;
 use super::card::RunCard;
-use super::scenery::{LANE_AHEAD_M, Track};
+use super::scenery::LANE_AHEAD_M;
+use super::track::Track;
 use crate::simulation::{Ground, Terrain};
 use libm::{cosf, log2f, sinf};
 use nalgebra::{Matrix3, Vector3};

@@ -7,11 +7,11 @@ use super::file::RrdFile;
 use super::film::{Film, Pace, Screening, opens_row};
 use super::live::{self, Live, Server};
 use super::race::{self, Field};
-use super::scenery::Track;
 use super::state::{self, Mood};
+use super::track::Track;
 use super::{
-    APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, clip, figures, packing, palette,
-    scenery,
+    APPLICATION, Clip, Draft, GENERATION, PLAYBACK, ViewError, figures, packing, palette, scenery,
+    screen,
 };
 use crate::archipelago::island::Report;
 use crate::evolution::population::SPREAD_BARS;
@@ -154,10 +154,10 @@ impl Recorder {
         let start_s = f64::from(slot) * slot_s;
         let lanes = self.film.lanes();
         let screening = Screening { clip, start_s, generation: clip.generation, slot, lanes };
-        let far_m = clip::show(&self.stream, screening, slot_s)?;
+        let far_m = screen::show(&self.stream, screening, slot_s)?;
         figures::show(&self.stream, screening, slot_s)?;
         if self.program == Program::Line {
-            clip::follow(&self.stream, screening, slot_s, self.track)?;
+            screen::follow(&self.stream, screening, slot_s, self.track)?;
         }
         self.frame(start_s, clip.generation, |field| Some(field.reach(far_m)))
     }
@@ -263,7 +263,7 @@ impl Recorder {
         let slot_s = self.film.pace().slot_s;
         while let Some(screening) = self.film.next(lane) {
             let Screening { start_s, generation, slot, .. } = screening;
-            let far_m = clip::show(&self.stream, screening, slot_s)?;
+            let far_m = screen::show(&self.stream, screening, slot_s)?;
             self.frame(start_s, generation, |field| field.learn(slot, far_m))?;
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Where a champion touches the ground, and the prints that it leaves there.
 
-use super::clip::Take;
 use super::extent::every;
+use super::take::Take;
 use super::{ViewError, palette};
 use crate::creature::morphology::Shape;
 use crate::simulation::trajectory::Pose;

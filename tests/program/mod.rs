@@ -1,5 +1,6 @@
 //! The program as people use it: its commands, what it shows, and its own house rules.
 
+mod circles;
 mod cleaning;
 mod cli;
 mod experiment;

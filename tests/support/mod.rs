@@ -1,6 +1,7 @@
 //! Starting the program in a world of its own, and looking at what it leaves behind.
 
 pub mod forger;
+pub mod imports;
 #[cfg(feature = "view")]
 pub mod onlooker;
 #[cfg(feature = "view")]

@@ -109,7 +109,7 @@ impl Visitor for GoOn<'_> {
         let Self { args, mut config, dir, claim, stop_signal } = self;
         resume::require_checkpoints::<P::Gene>(&dir, &config)?;
         let finished = summary::finished(&dir, &config, &problem);
-        if let Some(summary) = finished.filter(|it| !(it.awaits_film && films(&args.output))) {
+        if let Some(summary) = finished.filter(|it| !(it.awaits_film && args.output.films())) {
             // Its launcher may have been killed over its last words.
             Domain::remove_abandoned();
             present(&summary, &config, &args.output);
@@ -158,7 +158,7 @@ impl<P: Subject> Launch<P> {
         .map(|mut supervisor| {
             let evolved = supervisor.see_to_the_end();
             let summary =
-                evolved.and_then(|()| summary::gather(&dir, &config, &problem, films(output)));
+                evolved.and_then(|()| summary::gather(&dir, &config, &problem, output.films()));
             if let (Ok(summary), false) = (&summary, output.json) {
                 show(summary);
             }
@@ -176,11 +176,6 @@ impl<P: Subject> Launch<P> {
         present_film(&summary?, &config, output);
         Ok(closed?)
     }
-}
-
-/// Whether a monitor films the run.
-fn films(output: &OutputArgs) -> bool {
-    cfg!(feature = "view") && !output.no_monitor
 }
 
 fn write_config(dir: &RunDir, config: &Config) -> Result<(), Failure> {

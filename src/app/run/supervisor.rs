@@ -71,7 +71,7 @@ impl<'a, P: Subject> Supervisor<'a, P> {
         for island in 0..config.islands {
             supervisor.processes.start(Role::Island(island))?;
         }
-        if super::films(output) {
+        if output.films() {
             supervisor.processes.start(Role::Monitor)?;
         }
         Ok(supervisor)

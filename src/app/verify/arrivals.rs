@@ -1,4 +1,4 @@
-//! Whether what islands took in, where they do not wait for each other, was sent, and leads to what they became.
+//! Whether what islands took in, where they do not wait for each other, leads to what they became.
 
 use super::check::{Check, counted};
 use super::records::Records;
@@ -7,22 +7,6 @@ use crate::archipelago::{Digest, lockstep};
 use crate::runs::seeds;
 use crate::runs::subject::Subject;
 use crate::store::RunDir;
-
-/// Says of each outbox that an island took in whether it is in its sender's journal.
-pub fn match_journals<G>(dir: &RunDir, records: &Records<G>, mut check: Check) -> Check {
-    for (island, record) in (0..).zip(&records.arrivals) {
-        let taken = record.iter().flat_map(|arrivals| &arrivals.taken);
-        for &(source, epoch) in taken {
-            let sent = records.outboxes.get(source as usize).map_or(0, Vec::len);
-            if epoch as usize >= sent {
-                let reason =
-                    format!("epoch {epoch} of island {source} is not in that island's journal");
-                check.judge(&dir.arrivals(island), Err(reason));
-            }
-        }
-    }
-    check
-}
 
 /// Evolves a run that has finished again from its record, if that is wished (`thorough`): it must come to the same
 /// digest. `sound` says that nothing is wrong with its records. Where the seed alone fixes the result, nothing: who

@@ -1,6 +1,5 @@
 //! What the islands of a run left, read and checked.
 
-use super::arrivals;
 use super::check::{Check, counted};
 use super::retrial::{Claim, Measure};
 use super::rules::Terms;
@@ -224,7 +223,7 @@ impl<'a> Reader<'a> {
             migrations.checked(counted(all(&records.outboxes), "epoch")),
         ];
         checks.extend(arrivals.map(|check| {
-            arrivals::match_journals(self.dir, records, check)
+            match_journals(self.dir, records, check)
                 .checked(counted(all(&records.arrivals), "epoch"))
         }));
         checks
@@ -279,4 +278,20 @@ fn judge_length(
     } else {
         Ok(())
     }
+}
+
+/// Says of each outbox that an island took in whether it is in its sender's journal.
+fn match_journals<G>(dir: &RunDir, records: &Records<G>, mut check: Check) -> Check {
+    for (island, record) in (0..).zip(&records.arrivals) {
+        let taken = record.iter().flat_map(|arrivals| &arrivals.taken);
+        for &(source, epoch) in taken {
+            let sent = records.outboxes.get(source as usize).map_or(0, Vec::len);
+            if epoch as usize >= sent {
+                let reason =
+                    format!("epoch {epoch} of island {source} is not in that island's journal");
+                check.judge(&dir.arrivals(island), Err(reason));
+            }
+        }
+    }
+    check
 }
