@@ -13,6 +13,7 @@
 mod program;
 
 use islands::archipelago::{Step, island};
+use islands::evolution::Founders;
 use islands::runs::config::Config;
 use islands::store::{Logbook, RunDir};
 use program::{median, number};
@@ -88,7 +89,7 @@ fn save(times: usize) -> (f64, f64) {
     let restored = Logbook::open(&dir, &archipelago, 0, &config.settings());
     let mut logbook = restored.expect("the folder is writable").logbook;
     let problem = config.locomotion();
-    let mut step: Step<_> = island::genesis(&problem, &archipelago, 0);
+    let mut step: Step<_> = island::genesis(&problem, &Founders::NONE, &archipelago, 0);
     let [mut saves, mut records] = [Vec::new(), Vec::new()];
     for generation in 0..times {
         step.report.generation = generation as u32;

@@ -5,7 +5,7 @@ use super::lineage::Births;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
-use crate::evolution::{Fitness, Gene, Hurdles, Individual, Memory, Problem, Statistics};
+use crate::evolution::{Fitness, Founders, Gene, Hurdles, Individual, Memory, Problem, Statistics};
 use crate::rng::{Purpose, Source, Stream};
 use serde::{Deserialize, Serialize};
 
@@ -82,10 +82,15 @@ pub struct Step<G> {
     pub panicked: Vec<Vec<G>>,
 }
 
-/// Generation 0 of an island: random genomes, evaluated.
-pub fn genesis<P: Problem>(problem: &P, archipelago: &Archipelago, island: u32) -> Step<P::Gene> {
+/// Generation 0 of an island: founders and random genomes, evaluated.
+pub fn genesis<P: Problem>(
+    problem: &P,
+    founders: &Founders<P::Gene>,
+    archipelago: &Archipelago,
+    island: u32,
+) -> Step<P::Gene> {
     let source = archipelago.source(island);
-    let offspring = generation::genesis(problem, &archipelago.strategy, source);
+    let offspring = generation::genesis(problem, founders, &archipelago.strategy, source);
     let Brood { mut population, effort, panicked } =
         generation::evaluate(problem, offspring, &[], &Hurdles::LAST);
     generation::judge_best(problem, &mut population);
@@ -196,7 +201,7 @@ mod tests {
         let rates = &mut archipelago.strategy.variation;
         (rates.crossover_rate, rates.point_rate) = (0.0, 0.0);
         (rates.shrink_rate, rates.grow_rate) = (0.0, 0.0);
-        let first = genesis(&Toy, &archipelago, 0).island;
+        let first = genesis(&Toy, &Founders::NONE, &archipelago, 0).island;
         // Its score is none that an evaluation would give it.
         let immigrant = Individual {
             id: Id { island: 1, generation: 0, index: 0 },

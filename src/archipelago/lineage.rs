@@ -6,7 +6,7 @@
 
 use super::Archipelago;
 use crate::evolution::generation::{self, Moment};
-use crate::evolution::{Fitness, Id, Individual, Memory, Problem, Reproduction};
+use crate::evolution::{Fitness, Founders, Id, Individual, Memory, Problem, Reproduction};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -118,6 +118,7 @@ impl Lineage {
         &self,
         ids: &[Id],
         problem: &P,
+        founders: &Founders<P::Gene>,
         archipelago: &Archipelago,
     ) -> Result<BTreeMap<Id, Vec<P::Gene>>, Gap> {
         let mut genomes: BTreeMap<Id, Vec<P::Gene>> = BTreeMap::new();
@@ -132,7 +133,7 @@ impl Lineage {
                 None if strategy.reproduction == Reproduction::CmaEs && id.generation > 0 => {
                     return Err(Gap::Drawn(id));
                 }
-                None => generation::first(problem, strategy, moment, index),
+                None => generation::first(problem, founders, strategy, moment, index),
                 Some(mother) => {
                     let other = father.unwrap_or(mother);
                     let (genome, two_parents) =
@@ -203,7 +204,7 @@ mod tests {
             everybody.extend(step.island.population.iter().map(|one| (one.id, one.clone())));
         });
         let ids: Vec<Id> = everybody.keys().copied().collect();
-        let genomes = lineage.genomes(&ids, &Toy, &archipelago).unwrap();
+        let genomes = lineage.genomes(&ids, &Toy, &Founders::NONE, &archipelago).unwrap();
         let (mut crossed, mut moved) = (0, 0);
         for Individual { id, parents, genome, fitness, .. } in everybody.into_values() {
             assert_eq!(lineage.birth(id), Some(Birth { parents, fitness }));
@@ -238,7 +239,7 @@ mod tests {
                 let births = vec![birth(parents)];
                 lineage.push(0, Births { generation, amount_scale: 1.0, births });
             }
-            lineage.genomes(&[id(1, 0)], &Toy, &archipelago()).map(|_| ())
+            lineage.genomes(&[id(1, 0)], &Toy, &Founders::NONE, &archipelago()).map(|_| ())
         };
         let parent = Some(id(0, 0));
         assert_eq!(breed([Some(id(0, 9)), None]), Err(Gap::Unknown(id(0, 9))));
@@ -260,7 +261,7 @@ mod tests {
             let birth = Birth { parents: [Some(id(1 - island)), None], fitness: Fitness::WORST };
             lineage.push(island, Births { generation: 0, amount_scale: 1.0, births: vec![birth] });
         }
-        let bred = lineage.genomes(&[id(0)], &Toy, &archipelago());
+        let bred = lineage.genomes(&[id(0)], &Toy, &Founders::NONE, &archipelago());
         assert_eq!(bred, Err(Gap::Circular(id(0))));
         assert_eq!(lineage.line(id(0)), [id(1), id(0)]);
     }

@@ -2,7 +2,7 @@
 
 use super::island::{self, Island, Step};
 use super::{Archipelago, Arrivals, Migration, Outbox};
-use crate::evolution::Problem;
+use crate::evolution::{Founders, Problem};
 use std::collections::BTreeMap;
 
 /// Outboxes by epoch and sender.
@@ -16,13 +16,25 @@ pub fn run<P: Problem>(
     generations: u32,
     observe: impl FnMut(&Step<P::Gene>),
 ) -> Vec<Island<P::Gene>> {
-    run_until(problem, archipelago, generations, observe, |_| false)
+    run_from(problem, &Founders::NONE, archipelago, generations, observe)
+}
+
+/// The same, where islands begin with founders.
+pub fn run_from<P: Problem>(
+    problem: &P,
+    founders: &Founders<P::Gene>,
+    archipelago: &Archipelago,
+    generations: u32,
+    observe: impl FnMut(&Step<P::Gene>),
+) -> Vec<Island<P::Gene>> {
+    run_until(problem, founders, archipelago, generations, observe, |_| false)
 }
 
 /// The same, but the run is over earlier if `is_over` says so: it is asked before every generation, and
 /// sees all islands.
 pub fn run_until<P: Problem>(
     problem: &P,
+    founders: &Founders<P::Gene>,
     archipelago: &Archipelago,
     generations: u32,
     mut observe: impl FnMut(&Step<P::Gene>),
@@ -31,7 +43,7 @@ pub fn run_until<P: Problem>(
     let mut mail = Mail(Sent::new());
     let mut islands: Vec<Island<P::Gene>> = (0..archipelago.islands)
         .map(|index| {
-            let step = island::genesis(problem, archipelago, index);
+            let step = island::genesis(problem, founders, archipelago, index);
             observe(&step);
             step.island
         })
@@ -95,20 +107,26 @@ pub struct Impossible {
 /// If a record says nothing of an epoch, or of one that can never have been sent by then.
 pub fn replay<P: Problem>(
     problem: &P,
+    founders: &Founders<P::Gene>,
     archipelago: &Archipelago,
     generations: u32,
     arrivals: &[Vec<Arrivals>],
     mut observe: impl FnMut(&Step<P::Gene>),
 ) -> Result<Vec<Island<P::Gene>>, Impossible> {
     let mut sent = Sent::new();
+    let mut first = |index| {
+        let step = island::genesis(problem, founders, archipelago, index);
+        observe(&step);
+        Some(step.island)
+    };
     let mut islands: Vec<Option<Island<P::Gene>>> =
-        (0..archipelago.islands).map(|_| None).collect();
+        (0..archipelago.islands).map(&mut first).collect();
     loop {
         let (mut has_moved, mut stuck) = (false, None);
         for (index, place) in (0..).zip(&mut islands) {
             let record = arrivals.get(index as usize).map_or(&[][..], Vec::as_slice);
             while place.as_ref().is_none_or(|island| island.generation < generations) {
-                let Some(step) = next(problem, archipelago, index, place, record, &sent) else {
+                let Some(step) = next(problem, archipelago, place, record, &sent) else {
                     let generation = place.as_ref().map_or(0, |island| island.generation);
                     let epoch = archipelago.migration.begun(generation);
                     stuck = stuck.or(Some(Impossible { island: index, epoch }));
@@ -132,12 +150,11 @@ pub fn replay<P: Problem>(
 fn next<P: Problem>(
     problem: &P,
     archipelago: &Archipelago,
-    index: u32,
     place: &mut Option<Island<P::Gene>>,
     record: &[Arrivals],
     sent: &Sent<P::Gene>,
 ) -> Option<Step<P::Gene>> {
-    let Some(island) = place else { return Some(island::genesis(problem, archipelago, index)) };
+    let island = place.as_ref()?;
     let mut immigrants = Vec::new();
     if let Some(epoch) = archipelago.migration.beginning(island.generation + 1) {
         for &(source, epoch) in &record.get(epoch as usize)?.taken {

@@ -21,7 +21,7 @@ use super::arrivals::{Arrivals, Errand, Mailbox};
 use super::inbox::{Arrival, Inbox};
 use super::island::{self, Island, Step};
 use super::{Archipelago, ExchangeMode, Outbox};
-use crate::evolution::Problem;
+use crate::evolution::{Founders, Problem};
 use std::time::Duration;
 
 /// Without what it waits for, an island asks for it after so long, and again each time after as long.
@@ -30,6 +30,7 @@ pub const PATIENCE: Duration = Duration::from_millis(200);
 /// An island under way: its state, what it waits for, and how far it has to go.
 pub struct Protocol<'a, P: Problem> {
     problem: &'a P,
+    founders: Founders<P::Gene>,
     archipelago: &'a Archipelago,
     index: u32,
     generations: u32,
@@ -97,6 +98,7 @@ impl<'a, P: Problem> Protocol<'a, P> {
         };
         Self {
             problem,
+            founders: Founders::NONE,
             archipelago,
             index,
             generations,
@@ -106,6 +108,11 @@ impl<'a, P: Problem> Protocol<'a, P> {
             asks_at_once: saved.is_some(),
             island: saved,
         }
+    }
+
+    /// The protocol of an island that begins with founders.
+    pub fn with_founders(self, founders: Founders<P::Gene>) -> Self {
+        Self { founders, ..self }
     }
 
     /// The protocol of an island whose earlier lives recorded this, which fits it
@@ -163,7 +170,7 @@ impl<'a, P: Problem> Protocol<'a, P> {
         let immigrants = self.take_in();
         let Self { problem, archipelago, .. } = *self;
         let step = match self.island.take() {
-            None => island::genesis(problem, archipelago, self.index),
+            None => island::genesis(problem, &self.founders, archipelago, self.index),
             Some(island) => island::step(island, &immigrants, problem, archipelago),
         };
         self.island = Some(step.island.clone());

@@ -2,6 +2,7 @@
 //! and [`evaluate`]. Who survives is [`super::survival`]'s.
 
 use super::fitness::{Evaluation, Fitness, Outcome};
+use super::founders::Founders;
 use super::gene::Gene;
 use super::hurdles::Hurdles;
 use super::individual::{Id, Individual};
@@ -81,36 +82,44 @@ impl Effort {
 /// The genomes of generation 0: random ones, but for founders.
 pub fn genesis<P: Problem>(
     problem: &P,
+    founders: &Founders<P::Gene>,
     strategy: &Strategy,
     source: Source,
 ) -> Vec<Offspring<P::Gene>> {
     let moment = Moment { source, generation: 0 };
-    (0..strategy.population)
-        .map(|index| {
-            let genome = first(problem, strategy, moment, index);
-            moment.newborn(index, genome)
-        })
-        .collect()
+    let newborn = |index| moment.newborn(index, first(problem, founders, strategy, moment, index));
+    (0..strategy.population).map(newborn).collect()
 }
 
 /// Genome number `index` of those who have no parents: a founder's in generation 0 or, where there is none, a random
 /// one.
 pub fn first<P: Problem>(
     problem: &P,
+    founders: &Founders<P::Gene>,
     strategy: &Strategy,
     moment: Moment,
     index: usize,
 ) -> Vec<P::Gene> {
-    let Moment { source, generation } = moment;
-    let founder = problem.founder(source.island, index, strategy.population);
-    founder.filter(|_| generation == 0).unwrap_or_else(|| {
-        let mut rng = source.stream(generation, index as u32, Purpose::Genesis);
-        let mut genome = problem.random_genome(&mut rng);
-        if problem.layout() == Layout::Free {
-            genome.truncate(strategy.variation.genes_max);
-        }
-        genome
-    })
+    let founder = founders.of(moment.source.island, index, strategy.population);
+    match founder.filter(|_| moment.generation == 0) {
+        Some(founder) => founder.to_vec(),
+        None => random(problem, strategy, moment, index),
+    }
+}
+
+/// Random genome number `index` of a generation.
+fn random<P: Problem>(
+    problem: &P,
+    strategy: &Strategy,
+    moment: Moment,
+    index: usize,
+) -> Vec<P::Gene> {
+    let mut rng = moment.source.stream(moment.generation, index as u32, Purpose::Genesis);
+    let mut genome = problem.random_genome(&mut rng);
+    if problem.layout() == Layout::Free {
+        genome.truncate(strategy.variation.genes_max);
+    }
+    genome
 }
 
 /// Phase: the offspring of a population. `memory` is what its island has learned.
@@ -122,7 +131,7 @@ pub fn reproduce<P: Problem>(
     moment: Moment,
 ) -> Vec<Offspring<P::Gene>> {
     let brood = strategy.brood();
-    let random = |index| moment.newborn(index, first(problem, strategy, moment, index));
+    let random = |index| moment.newborn(index, random(problem, strategy, moment, index));
     match strategy.reproduction {
         Reproduction::Parents => {
             let newcomers = strategy.survival.newcomers().min(brood);
@@ -146,7 +155,7 @@ fn sample<P: Problem>(
     let sampler = memory.cma.as_ref().map(|cma| cma.sampler());
     let draw = |index: usize| {
         // Whatever is no number in a genome stays as in a random one.
-        let mut genome = first(problem, strategy, moment, index);
+        let mut genome = random(problem, strategy, moment, index);
         let mut rng = moment.source.stream(moment.generation, index as u32, Purpose::Sampling);
         let drawn = sampler.as_ref().map(|sampler| sampler.draw(&mut rng)).unwrap_or_default();
         let values = genome.iter_mut().flat_map(Gene::values_mut);

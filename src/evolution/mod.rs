@@ -11,6 +11,7 @@
 
 pub mod cma;
 pub mod fitness;
+pub mod founders;
 pub mod gene;
 pub mod generation;
 pub mod hurdles;
@@ -27,6 +28,7 @@ pub mod variation;
 mod tests;
 
 pub use fitness::{Evaluation, Fitness, Outcome};
+pub use founders::Founders;
 pub use gene::Gene;
 pub use hurdles::{Hurdles, LOOKS};
 pub use individual::{Id, Individual};

@@ -22,12 +22,6 @@ pub trait Problem: Sync + Sized {
     /// Draws the genome of an individual of generation 0.
     fn random_genome(&self, rng: &mut Stream) -> Vec<Self::Gene>;
 
-    /// The genome that individual `index` of generation 0 of an island with so many individuals has to have; none if a
-    /// random one. It is no longer than genomes may be.
-    fn founder(&self, _island: u32, _index: usize, _population: usize) -> Option<Vec<Self::Gene>> {
-        None
-    }
-
     /// Whether each place of a genome has its meaning, so that all have the length of a random one.
     fn layout(&self) -> Layout {
         Layout::Free

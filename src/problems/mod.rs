@@ -3,7 +3,7 @@
 //! [`locomotion`] evolves creatures that move: [`tasks`] say what they have to do, [`progress`] how far one got,
 //! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
 //! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`],
-//! and [`bits`] strings of ones and zeros, both of a [`fixed`] length. [`founded`] begins with given genomes.
+//! and [`bits`] strings of ones and zeros, both of a [`fixed`] length.
 //!
 //! # A problem of one's own
 //!
@@ -70,7 +70,6 @@
 pub mod benchmark;
 pub mod bits;
 pub mod fixed;
-pub mod founded;
 pub mod functions;
 pub mod locomotion;
 pub mod progress;
@@ -81,7 +80,6 @@ pub mod validation;
 
 pub use benchmark::{Benchmark, Real};
 pub use bits::{Bit, Bits, Pattern};
-pub use founded::Founded;
 pub use functions::Function;
 pub use locomotion::Locomotion;
 pub use robustness::{RobustBy, Robustness};

@@ -25,6 +25,20 @@ impl Kind {
         [Kind::Creatures].into_iter().chain(functions).chain(bits).collect()
     }
 
+    /// Every problem, as `--help` lists them.
+    pub fn list() -> String {
+        let all = Self::all();
+        let families = all.chunk_by(|one, other| one.family() == other.family());
+        let family = |kinds: &[Self]| {
+            let names: Vec<String> = kinds.iter().map(Self::to_string).collect();
+            match &names[..] {
+                [only] => only.clone(),
+                _ => format!("{} ({})", kinds[0].family(), names.join(", ")),
+            }
+        };
+        families.map(family).collect::<Vec<_>>().join(", ")
+    }
+
     /// What problems of its sort are called.
     pub fn family(self) -> &'static str {
         match self {

@@ -1,14 +1,14 @@
 //! Genomes that a run begins with, and the copy of them that it keeps.
 //!
 //! The result of a run depends on them, so its configuration holds their digest, and its folder what they are. They
-//! are dealt out by [`Founded`].
+//! are dealt out by [`Founders`].
 
 use super::config::{Config, POPULATION_MAX, SeedGenomes};
 use super::failure::Failure;
 use super::genome_files;
 use super::subject::Subject;
 use crate::archipelago::Algorithm;
-use crate::problems::Founded;
+use crate::evolution::Founders;
 use crate::store::{RunDir, file};
 use std::path::{Path, PathBuf};
 
@@ -80,18 +80,18 @@ pub fn keep<P: Subject>(
     Ok(dir.write(&dir.seed_genomes(), |out| out.write_all(&copy))?)
 }
 
-/// The problem of a run, and whom it begins with.
+/// Whom a run begins with.
 ///
 /// # Errors
 /// If the copy is not there, or not what the configuration says.
-pub fn founded<P: Subject>(
+pub fn of_run<P: Subject>(
     dir: &RunDir,
     config: &Config,
-    problem: P,
-) -> Result<Founded<P>, Failure> {
+    problem: &P,
+) -> Result<Founders<P::Gene>, Failure> {
     let said = config.seed_genomes.as_ref();
-    let founders = said.map(|said| load(&problem, dir, said)).transpose()?.unwrap_or_default();
-    Ok(Founded { problem, founders })
+    let genomes = said.map(|said| load(problem, dir, said)).transpose()?;
+    Ok(genomes.map_or(Founders::NONE, Founders))
 }
 
 /// Reads the copy in a run's folder.

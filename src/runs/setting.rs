@@ -121,6 +121,8 @@ pub struct About {
     pub flag: Option<&'static str>,
     /// What stands for the value in `--help`.
     pub value_name: Option<&'static str>,
+    /// What there is to choose from, where a list says so.
+    pub choices: Option<fn() -> String>,
     /// The default in words, where there is no value that says it.
     pub usually: Option<&'static str>,
     /// Whether a run that goes on may have another one: it decides how long and how a run is carried out, and no result.
@@ -145,6 +147,7 @@ pub const fn of(section: Section) -> About {
         section,
         flag: None,
         value_name: None,
+        choices: None,
         usually: None,
         is_free: false,
         tries_bodies: false,
@@ -165,6 +168,11 @@ impl About {
     /// Has a word for its value in `--help`.
     pub const fn value(self, value_name: &'static str) -> Self {
         Self { value_name: Some(value_name), ..self }
+    }
+
+    /// Is one of a list, which its help names.
+    pub const fn one_of(self, list: fn() -> String) -> Self {
+        Self { choices: Some(list), ..self }
     }
 
     /// Says its default in words.
@@ -206,6 +214,12 @@ impl About {
     pub const fn for_survival(self, survival: fn(Survival) -> bool) -> Self {
         Self { survival, ..self }
     }
+}
+
+/// The help of a setting: what is said of it, and what there is to choose from.
+pub fn help(said: &str, about: &About) -> String {
+    let choices = about.choices.map(|list| format!(": {}", list())).unwrap_or_default();
+    format!("{}{choices}", said.trim())
 }
 
 /// Reads a value.
@@ -305,7 +319,7 @@ macro_rules! settings {
         pub static SETTINGS: LazyLock<Vec<Setting<Config>>> = LazyLock::new(|| {
             vec![$(Setting {
                 name: stringify!($name).replace('_', "-"),
-                help: concat!($($help),+).trim().to_owned(),
+                help: setting::help(concat!($($help),+), &$about),
                 about: $about,
                 set: |config, text| {
                     config.$name = settings!(@read text; $($default)?; $($part)?);

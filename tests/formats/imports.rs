@@ -6,8 +6,8 @@ use expect_test::expect;
 use islands::archipelago::{Digest, lockstep};
 use islands::creature::Gene;
 use islands::creature::gene::VALUE_MAX;
+use islands::evolution::Founders;
 use islands::formats::genome_csv;
-use islands::problems::Founded;
 use islands::runs::config::Config;
 use islands::store::RunDir;
 use serde_json::{Value, json};
@@ -182,16 +182,17 @@ fn every_island_begins_with_as_many_of_the_genomes_as_it_has_room_for() {
     let run = format!("--out run {SEEDED} {TINY} --seed-genomes elites");
     let digest = world.digest("run", &run.replace("--out run ", ""));
     let config = Config::read(&RunDir::at(world.path("run")).config()).unwrap();
-    let problem = Founded { problem: config.locomotion(), founders: founders() };
+    let (problem, founders) = (config.locomotion(), Founders(founders()));
     let mut firsts = Vec::new();
-    let islands = lockstep::run(&problem, &config.archipelago(), config.generations, |step| {
+    let (archipelago, generations) = (config.archipelago(), config.generations);
+    let islands = lockstep::run_from(&problem, &founders, &archipelago, generations, |step| {
         if step.report.generation == 0 {
             firsts
                 .push(step.island.population.iter().map(|i| i.genome.clone()).collect::<Vec<_>>());
         }
     });
     assert_eq!(Digest::of(&islands).to_string(), digest);
-    let dealt = |places: [usize; 4]| places.map(|place| founders()[place].clone()).to_vec();
+    let dealt = |places: [usize; 4]| places.map(|place| founders.0[place].clone()).to_vec();
     assert_eq!(firsts, [dealt([0, 1, 2, 3]), dealt([4, 0, 1, 2])]);
 }
 
@@ -203,8 +204,8 @@ fn where_there_are_fewer_genomes_than_room_the_rest_is_as_random_as_ever() {
     world.digest("run", &format!("{settings} --seed-genomes one.csv"));
     let config = Config::read(&RunDir::at(world.path("run")).config()).unwrap();
     let first = |founders: Vec<Vec<Gene>>| {
-        let problem = Founded { problem: config.locomotion(), founders };
-        let islands = lockstep::run(&problem, &config.archipelago(), 0, |_| ());
+        let (problem, founders) = (config.locomotion(), Founders(founders));
+        let islands = lockstep::run_from(&problem, &founders, &config.archipelago(), 0, |_| ());
         islands.into_iter().map(|it| it.population).collect::<Vec<_>>()
     };
     let one = founders()[0].clone();

@@ -1,6 +1,6 @@
 //! The house keeps its order: who may import whom, who alone knows a heavy dependency, and what lies where.
 
-use crate::support::imports::{Source, root, sources};
+use crate::support::imports::{root, sources};
 use std::fs;
 use std::process::Command;
 

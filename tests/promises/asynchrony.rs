@@ -3,6 +3,7 @@
 use crate::support::{World, await_generation, is_alive, signal, try_signal, until};
 use islands::archipelago::arrivals::check_record;
 use islands::archipelago::{Arrivals, Digest, lockstep};
+use islands::evolution::Founders;
 use islands::rng::Stream;
 use islands::runs::catalogue::Visitor;
 use islands::runs::config::Config;
@@ -69,7 +70,8 @@ impl Visitor for Replay<'_> {
     fn visit<P: Subject>(self, problem: P) -> String {
         let Self(config, records) = self;
         let (archipelago, generations) = (config.archipelago(), config.generations);
-        let islands = lockstep::replay(&problem, &archipelago, generations, records, |_| ());
+        let islands =
+            lockstep::replay(&problem, &Founders::NONE, &archipelago, generations, records, |_| ());
         Digest::of(&islands.unwrap()).to_string()
     }
 }

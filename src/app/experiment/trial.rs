@@ -2,7 +2,7 @@
 
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
 use crate::evolution::population::mean_of_pairs;
-use crate::evolution::{Fitness, Gene, Individual};
+use crate::evolution::{Fitness, Founders, Gene, Individual};
 use crate::runs::catalogue::Visitor;
 use crate::runs::config::Config;
 use crate::runs::kept::kept;
@@ -98,6 +98,7 @@ fn evolve<P: Subject>(
     let mut stopped = false;
     let islands = lockstep::run_until(
         problem,
+        &Founders::NONE,
         &config.archipelago(),
         config.generations,
         |step| record.observe(step),

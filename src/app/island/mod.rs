@@ -7,7 +7,6 @@ use super::cli::IslandArgs;
 use super::console::{Stopwatch, say};
 use super::parent_link::{FINISHED, READY, StopSignal, tell};
 use crate::archipelago::{Action, Archipelago, Arrival, ExchangeMode, Outbox, Protocol, Step};
-use crate::problems::Founded;
 use crate::runs::Failure;
 use crate::runs::catalogue::Visitor;
 use crate::runs::config::Config;
@@ -56,15 +55,15 @@ impl Visitor for Start<'_> {
         for warning in warnings {
             say(&format!("warning: {warning}"));
         }
-        let problem = seeds::founded(dir, config, problem)?;
+        let founders = seeds::of_run(dir, config, &problem)?;
         let saved = island.as_ref().map(|island| island.generation);
         let protocol =
             Protocol::begin(&problem, &archipelago, args.index, config.generations, island);
-        let protocol = protocol.with_record(arrivals);
+        let protocol = protocol.with_founders(founders).with_record(arrivals);
         let mut process = IslandProcess {
             config,
             archipelago: &archipelago,
-            problem: &problem.problem,
+            problem: &problem,
             protocol,
             exchange,
             logbook,
@@ -87,7 +86,7 @@ struct IslandProcess<'a, P: Subject> {
     config: &'a Config,
     archipelago: &'a Archipelago,
     problem: &'a P,
-    protocol: Protocol<'a, Founded<P>>,
+    protocol: Protocol<'a, P>,
     exchange: Exchange<P::Gene>,
     logbook: Logbook<P::Gene>,
     stop_signal: StopSignal,

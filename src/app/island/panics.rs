@@ -46,6 +46,7 @@ mod tests {
     use crate::archipelago::island;
     use crate::creature::Gene;
     use crate::creature::gene::PARAMETER_COUNT;
+    use crate::evolution::Founders;
     use crate::formats::genome_csv;
     use crate::runs::config::Config;
     use std::fs::File;
@@ -57,7 +58,7 @@ mod tests {
         let _claim = dir.create().unwrap();
         let config = Config { population: 2, elites: 1, genes: 1, ..Config::default() };
         let problem = config.locomotion();
-        let mut step = island::genesis(&problem, &config.archipelago(), 0);
+        let mut step = island::genesis(&problem, &Founders::NONE, &config.archipelago(), 0);
         let genome = |value: usize| vec![Gene([value as f64 / 32.0; PARAMETER_COUNT])];
         step.report.island = 3;
         step.panicked = (0..7).map(genome).collect();

@@ -170,8 +170,9 @@ fn ancestors(
         ))
     };
     let line = pedigree::selection(&lineage.line(best.id), most);
-    let problem = seeds::founded(dir, config, config.locomotion())?;
-    let genomes = lineage.genomes(&line, &problem, &config.archipelago());
+    let problem = config.locomotion();
+    let founders = seeds::of_run(dir, config, &problem)?;
+    let genomes = lineage.genomes(&line, &problem, &founders, &config.archipelago());
     let genomes = genomes.map_err(|gap| lost(gap.to_string()))?;
     if genomes.get(&best.id) != Some(&best.genome) {
         return Err(lost("they breed another genome; was the run made by another version?".into()));

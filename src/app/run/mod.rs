@@ -115,7 +115,7 @@ impl Visitor for GoOn<'_> {
             present(&summary, &config, &args.output);
             return Ok(());
         }
-        let problem = seeds::founded(&dir, &config, problem)?.problem;
+        seeds::of_run(&dir, &config, &problem)?;
         config.launch = Some(new_launch()?);
         let domain = config.domain()?;
         let service_host = ServiceHost::create(&domain, &config.archipelago())?;

@@ -33,7 +33,7 @@ pub fn check<P: Subject>(
         check.note("not checked: another version may breed otherwise");
         return check;
     }
-    let Ok(problem) = seeds::founded(dir, terms.config, problem.clone()) else {
+    let Ok(founders) = seeds::of_run(dir, terms.config, problem) else {
         check.note("not checked: the genomes that the run began with are damaged");
         return check;
     };
@@ -42,7 +42,7 @@ pub fn check<P: Subject>(
         births.iter().for_each(|births| lineage.push(island, births.clone()));
     }
     let ids: Vec<_> = champions().map(|(_, individual)| individual.id).collect();
-    match lineage.genomes(&ids, &problem, &terms.config.archipelago()) {
+    match lineage.genomes(&ids, problem, &founders, &terms.config.archipelago()) {
         Err(Gap::Drawn(_)) => {
             check.note("not checked: who is drawn from a distribution has no parents")
         }

@@ -23,23 +23,24 @@ pub fn replay<P: Subject>(
     let checked = counted(generations as usize, "generation");
     let mut check = Check::of("replay").checked(checked);
     let finals = records.finals(terms).filter(|_| sound);
-    match (finals, seeds::founded(dir, terms.config, problem.clone())) {
+    match (finals, seeds::of_run(dir, terms.config, problem)) {
         _ if !terms.is_async() && !terms.is_drawn() => return None,
         _ if !thorough => check.note("not tried: --thorough evolves the run again"),
         _ if !terms.is_of_this_version() => {
             check.note("not tried: another version may evolve otherwise")
         }
-        (Some(finals), Ok(problem)) => {
+        (Some(finals), Ok(founders)) => {
             let archipelago = terms.config.archipelago();
             let record = &records.arrivals;
             let (cause, again) = match terms.is_async() {
                 true => (
                     "what the islands took in",
-                    lockstep::replay(&problem, &archipelago, generations, record, |_| ()),
+                    lockstep::replay(problem, &founders, &archipelago, generations, record, |_| ()),
                 ),
-                false => {
-                    ("the seed", Ok(lockstep::run(&problem, &archipelago, generations, |_| ())))
-                }
+                false => (
+                    "the seed",
+                    Ok(lockstep::run_from(problem, &founders, &archipelago, generations, |_| ())),
+                ),
             };
             match again {
                 Err(impossible) => check.damaged(impossible),

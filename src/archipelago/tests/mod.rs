@@ -11,6 +11,7 @@ use super::protocol::PATIENCE;
 use super::{
     Action, Archipelago, Arrival, Digest, ExchangeMode, Migration, Outbox, Protocol, lockstep,
 };
+use crate::evolution::Founders;
 use crate::rng::{Purpose, Source, Stream};
 use rand::RngExt;
 use rand::seq::IndexedRandom;
@@ -108,7 +109,8 @@ fn try_schedule(seed: u64, change: impl Fn(&mut Schedule)) -> Tally {
         ExchangeMode::Sync => lockstep::run(&Toy, archipelago, *generations, |_| ()),
         ExchangeMode::Async => {
             let records = world.records();
-            lockstep::replay(&Toy, archipelago, *generations, &records, |_| ()).unwrap()
+            lockstep::replay(&Toy, &Founders::NONE, archipelago, *generations, &records, |_| ())
+                .unwrap()
         }
     };
     assert_eq!(Digest::of(&islands), Digest::of(&reference), "{schedule:#?}");

@@ -2,7 +2,9 @@
 
 use super::toy::{Toy, archipelago};
 use crate::archipelago::{Algorithm, Archipelago, Digest, Lineage, Migration, lockstep};
-use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Strategy, Survival, Variation};
+use crate::evolution::{
+    Adaptation, Crossover, Founders, Mutation, Selection, Strategy, Survival, Variation,
+};
 use std::collections::BTreeMap;
 
 const SELECTIONS: [&str; 5] = ["roulette", "sus", "tournament:2", "rank:1.8", "truncation:0.3"];
@@ -63,7 +65,8 @@ fn every_state_fits_its_island_and_everybody_can_be_bred_again() {
             everybody.extend(island.population.iter().map(|one| (one.id, one.genome.clone())));
         });
         let ids: Vec<_> = everybody.keys().copied().collect();
-        let bred = lineage.genomes(&ids, &Toy, &archipelago).expect("nothing is lost");
+        let bred =
+            lineage.genomes(&ids, &Toy, &Founders::NONE, &archipelago).expect("nothing is lost");
         assert_eq!(bred, everybody, "{strategy:?}");
         digests.insert(Digest::of(&islands).to_string());
     }

@@ -22,9 +22,8 @@ settings! {
     /// Seed that fixes the result
     seed: u64,
         of(Run).usually("picked and printed").not_in_experiments("say seeds, above all tables");
-    /// Problem: creatures; a function to be minimised (sphere, rastrigin, rosenbrock, ackley, schwefel, griewank); or
-    /// bits (onemax, trap, royal-road)
-    problem: Kind = Kind::Creatures, of(Run);
+    /// Problem
+    problem: Kind = Kind::Creatures, of(Run).one_of(Kind::list);
     /// Search algorithm: ga, or to compare with it random, hill-climb, cma-es or panmictic (one large population)
     algorithm: Algorithm = Algorithm::Ga, of(Run);
     /// Generations after the random first one
@@ -42,9 +41,8 @@ settings! {
     /// Bits of a block of trap or royal-road
     block: usize = 5, of(Vectors).value("K").for_problem(Kind::has_blocks);
 
-    /// Task of creatures: walk (get away), travel (keep moving), course (as the course program measures) or climb
-    /// (up its mountain)
-    task: Task => locomotion.task, of(Creatures).tries_bodies();
+    /// Task of creatures
+    task: Task => locomotion.task, of(Creatures).tries_bodies().one_of(Task::list);
     /// How genes are read: native, lecture or coursework
     profile: Profile => locomotion.profile, of(Creatures).tries_bodies();
     /// Physics engine: featherstone (our own, ten times as fast) or rapier
