@@ -18,9 +18,10 @@
 //! |   | [`work_queue`] | work dealt out to threads, the dearest first |
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
 //! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
+//! |   | [`networks`] | networks that grow (NEAT), and what their neurons do |
 //! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
 //! |   | [`simulation`] | bodies tried in rapier or a stepper of our own |
-//! | 3 | [`problems`] | what can be evolved: creatures that move, points of functions, bits |
+//! | 3 | [`problems`] | what can be evolved: creatures that move, points of functions, bits, networks |
 //! | 4 | [`transport`] | exchange between processes through iceoryx2 |
 //! |   | [`store`] | what a run leaves on disk |
 //! |   | [`formats`] | files for people and other programs |
@@ -67,6 +68,7 @@ pub mod work_queue;
 
 pub mod creature;
 pub mod evolution;
+pub mod networks;
 
 pub mod archipelago;
 pub mod simulation;

@@ -66,8 +66,8 @@ Examples:
   islands inspect robot.urdf                                any body of simple solids"
 )]
 pub struct InspectArgs {
-    /// File of the genome or the body
-    #[arg(value_name = "GENOME.csv|BODY.urdf")]
+    /// File of the genome, the body or the network
+    #[arg(value_name = "GENOME.csv|BODY.urdf|NETWORK.csv")]
     pub genome: PathBuf,
     #[command(flatten)]
     pub settings: SettingArgs<OfBody>,
@@ -76,6 +76,9 @@ pub struct InspectArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+    /// Print a drawing of a network, for Graphviz
+    #[arg(long, conflicts_with = "json")]
+    pub dot: bool,
 }
 
 /// Taking in genomes of the course.

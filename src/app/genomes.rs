@@ -5,7 +5,7 @@ use super::console::say;
 use super::table::harmless;
 use crate::creature::{Creature, Gene, Reading};
 use crate::formats::urdf::{self, ReadBody};
-use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, vector_csv};
+use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, network_csv, vector_csv};
 use crate::runs::Failure;
 use crate::runs::genome_files::{FILE_BYTES_MAX, dropped};
 use crate::store::file;
@@ -70,6 +70,16 @@ pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String
     read.map_err(|error| reason(&bytes, &error))
 }
 
+/// What a file says of a network, if it is one.
+///
+/// # Errors
+/// One sentence that names the file and what is wrong with it.
+pub fn network(path: &Path) -> Result<Option<Vec<network_csv::Row>>, Failure> {
+    let bytes = bytes(path)?;
+    let rows = network_csv::is_ours(&bytes).then(|| network_csv::read_rows(&bytes));
+    rows.transpose().map_err(|error| wrong(path, &error))
+}
+
 fn bytes(path: &Path) -> Result<Vec<u8>, Failure> {
     file::read(path, FILE_BYTES_MAX).map_err(|error| {
         wrong(
@@ -88,7 +98,7 @@ fn wrong(path: &Path, error: &dyn Display) -> Failure {
 
 /// Why some bytes are no creature's genome.
 fn reason(bytes: &[u8], error: &GenomeCsvError) -> String {
-    match vector_csv::is_ours(bytes) {
+    match vector_csv::is_ours(bytes) || network_csv::is_ours(bytes) {
         true => "it is a genome of another problem, and describes no creature; islands evaluate takes it with the \
                  --problem that it is of"
             .to_owned(),

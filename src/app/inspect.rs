@@ -1,17 +1,18 @@
-//! `islands inspect`: the body that a genome or a URDF describes.
+//! `islands inspect`: the body that a genome or a URDF describes, or a network.
 
 use super::cli::InspectArgs;
 use super::console::print;
-use super::genomes::Specimen;
+use super::genomes::{self, Specimen};
 use super::table::lay_out;
 use crate::creature::{self, Development, JointKind, Link, Motor};
+use crate::formats::network_csv::{self, Row};
 use crate::formats::urdf::ReadBody;
 use crate::formats::{BodyInspection, Inspection};
 use crate::runs::Failure;
 use crate::runs::config::Config;
 use std::path::Path;
 
-/// Shows the body in a file.
+/// Shows the body or the network in a file.
 ///
 /// # Errors
 /// If it cannot be read or expressed.
@@ -20,6 +21,13 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     let config = args.settings.over(Config { scales, ..Config::default() });
     config.check()?;
     let (links_max, reading) = (config.max_links, config.locomotion().reading());
+    if let Some(rows) = genomes::network(&args.genome)? {
+        show_network(&rows, args);
+        return Ok(());
+    }
+    if args.dot {
+        return Err(Failure::usage("--dot draws networks, and this is none: leave it out"));
+    }
     match Specimen::read(&args.genome, &args.changes)? {
         Specimen::Body(body) if args.json => {
             print(&json(&BodyInspection::new(&body, source(&args.genome))));
@@ -40,6 +48,24 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
         }
     }
     Ok(())
+}
+
+fn show_network(rows: &[Row], args: &InspectArgs) {
+    if args.dot {
+        return print(network_csv::dot(rows).trim_end());
+    }
+    if args.json {
+        return print(&json(&rows));
+    }
+    let heads = ["part", "from", "to", "weight", "in use", "function"].map(str::to_owned);
+    let row = |row: &Row| {
+        let weight = row.weight.map(|weight| format!("{weight:.3}")).unwrap_or_default();
+        let in_use = row.enabled.map(|enabled| if enabled { "yes" } else { "no" });
+        let function = row.function.map(|it| it.to_string()).unwrap_or_default();
+        let [part, from, to] = [&row.part, &row.from, &row.to].map(Clone::clone);
+        [part, from, to, weight, in_use.unwrap_or_default().to_owned(), function]
+    };
+    print(&lay_out(&[heads].into_iter().chain(rows.iter().map(row)).collect::<Vec<_>>()));
 }
 
 fn json(inspection: &impl serde::Serialize) -> String {

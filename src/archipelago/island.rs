@@ -5,6 +5,7 @@ use super::lineage::Births;
 use super::migration::{self, Outbox};
 use crate::evolution::generation::{self, Brood, Effort, Moment};
 use crate::evolution::population::{Population, best};
+use crate::evolution::survival::species::Species;
 use crate::evolution::{Fitness, Founders, Gene, Hurdles, Individual, Memory, Problem, Statistics};
 use crate::rng::{Purpose, Source, Stream};
 use serde::{Deserialize, Serialize};
@@ -40,6 +41,10 @@ pub struct Report {
     pub effort: Effort,
     /// Immigrants that were in its outboxes.
     pub immigrants: u32,
+    /// Species that its population has at its end, where it is divided into such; else 0.
+    // In files an entry of a log has it after all else: those of before there were species end there.
+    #[serde(skip)]
+    pub species: u32,
 }
 
 /// A champion of an island, better than all before it.
@@ -95,7 +100,7 @@ pub fn genesis<P: Problem>(
         generation::evaluate(problem, offspring, &[], &Hurdles::LAST);
     generation::judge_best(problem, &mut population);
     let births = Births::of(0, &Memory::default(), &population);
-    let memory = Memory::first(&population, &archipelago.strategy);
+    let memory = Memory::first(problem, &population, &archipelago.strategy);
     let survival = archipelago.strategy.survival;
     let population = match survival.has_cells() {
         true => survival.survivors(problem, &[], population, 0, &mut fate(source, 0)),
@@ -108,6 +113,7 @@ pub fn genesis<P: Problem>(
         statistics: Statistics::of(problem, &population),
         effort,
         immigrants: 0,
+        species: memory.species().map_or(0, Species::count) as u32,
     };
     let crowned = Champion::crown(problem, &champion, 0);
     let island = Island { index: island, generation: 0, population, champion, effort, memory };
@@ -131,7 +137,9 @@ pub fn step<P: Problem>(
     let moment = Moment { source: archipelago.source(index), generation };
     let strategy = &strategy.on(index, memory.amount_scale);
 
+    let before = if memory.species().is_some() { population.clone() } else { Vec::new() };
     let population = take_in(problem, population, immigrants, archipelago, moment);
+    let memory = memory.with_immigrants(problem, &before, &population, strategy, moment.here());
     let offspring = generation::reproduce(problem, &population, &memory, strategy, moment);
     let hurdles = Hurdles::of(&population, strategy.survival.forgets());
     let Brood { population: brood, effort, panicked } =
@@ -139,8 +147,8 @@ pub fn step<P: Problem>(
     let births = Births::of(generation, &memory, &brood);
     let mut sampling = moment.source.stream(generation, u32::MAX, Purpose::Sampling);
     let memory = memory.after(&population, &brood, strategy, &mut sampling);
-    let mut fate = fate(moment.source, generation);
-    let next = strategy.survival.survivors(problem, &population, brood, strategy.elites, &mut fate);
+    let next = generation::succeed(problem, &population, brood, &memory, strategy, moment);
+    let memory = memory.with_heirs(problem, &population, &next, strategy, moment.here());
     let contender =
         [best(&population), best(&next)].into_iter().flatten().max_by_key(|i| i.fitness);
     let better = contender.filter(|contender| contender.fitness > champion.fitness);
@@ -155,6 +163,7 @@ pub fn step<P: Problem>(
         statistics: Statistics::of(problem, &next),
         effort,
         immigrants: immigrants.iter().map(|outbox| outbox.migrants.len() as u32).sum(),
+        species: memory.species().map_or(0, Species::count) as u32,
     };
     let island =
         Island { index, generation, population: next, champion, effort: spent.and(effort), memory };

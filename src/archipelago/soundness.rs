@@ -42,7 +42,10 @@ impl<G: Gene> Island<G> {
         let Island { population, champion, effort, .. } = self;
         require(self.index == index && index < archipelago.islands, Misfit::Index)?;
         require(archipelago.strategy.sizes().contains(&population.len()), Misfit::Size)?;
-        require(self.memory.is_sound(&archipelago.strategy, population), Misfit::Memory)?;
+        require(
+            self.memory.is_sound(&archipelago.strategy, population, self.generation),
+            Misfit::Memory,
+        )?;
         for individual in population.iter().chain([champion]) {
             possible(individual, archipelago, index, self.generation)?;
         }
@@ -98,8 +101,8 @@ mod tests {
     use super::*;
     use crate::archipelago::tests::toy::{Bit, Toy, archipelago};
     use crate::archipelago::{Migration, lockstep};
-    use crate::evolution::Fitness;
     use crate::evolution::cma::Cma;
+    use crate::evolution::{Fitness, Learned};
 
     const GENERATION: u32 = 6;
 
@@ -133,7 +136,7 @@ mod tests {
             (Misfit::Lineage, |i| i.champion.parents[1] = Some(Id { island: 3, ..i.champion.id })),
             (Misfit::Lineage, |i| i.champion.origin = i.champion.id.generation + 1),
             (Misfit::Memory, |i| i.memory.amount_scale = f64::NAN),
-            (Misfit::Memory, |i| i.memory.cma = Some(Box::new(Cma::about(vec![0.5])))),
+            (Misfit::Memory, |i| i.memory.learned = Learned::Cma(Box::new(Cma::about(vec![0.5])))),
             (Misfit::Champion, |i| i.population[2].fitness = Fitness::new(999.0)),
             (Misfit::Champion, |i| i.champion.fitness = Fitness::WORST),
             (Misfit::Effort, |i| i.effort.evaluations += 1),

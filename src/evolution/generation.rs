@@ -10,9 +10,10 @@ use super::memory::Memory;
 use super::population::{Population, ranking};
 use super::problem::Problem;
 use super::strategy::{Reproduction, Strategy};
+use super::survival::species::Here;
 use super::variation::happens;
 use super::variation::sequences::Layout;
-use crate::rng::{Purpose, Source};
+use crate::rng::{Purpose, Source, Stream};
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,6 +29,11 @@ pub struct Moment {
 impl Moment {
     fn id(self, index: usize) -> Id {
         Id { island: self.source.island, generation: self.generation, index: index as u32 }
+    }
+
+    /// Where a population is divided into species.
+    pub fn here(self) -> Here {
+        Here { source: self.source, generation: self.generation }
     }
 
     /// Somebody without parents.
@@ -133,6 +139,13 @@ pub fn reproduce<P: Problem>(
     let brood = strategy.brood();
     let random = |index| moment.newborn(index, random(problem, strategy, moment, index));
     match strategy.reproduction {
+        Reproduction::Parents if memory.species().is_some() => {
+            let two_parents = |index| crossing(strategy, moment, index).0;
+            let couples = memory.species().map(|species| {
+                species.couples(population, strategy.selection, two_parents, moment.here())
+            });
+            vary(problem, population, &couples.unwrap_or_default(), strategy, moment)
+        }
         Reproduction::Parents => {
             let newcomers = strategy.survival.newcomers().min(brood);
             let couples = select(problem, population, strategy, moment, brood - newcomers);
@@ -152,7 +165,7 @@ fn sample<P: Problem>(
     strategy: &Strategy,
     moment: Moment,
 ) -> Vec<Offspring<P::Gene>> {
-    let sampler = memory.cma.as_ref().map(|cma| cma.sampler());
+    let sampler = memory.cma().map(|cma| cma.sampler());
     let draw = |index: usize| {
         // Whatever is no number in a genome stays as in a random one.
         let mut genome = random(problem, strategy, moment, index);
@@ -211,14 +224,35 @@ pub fn breed<P: Problem>(
 ) -> (Vec<P::Gene>, bool) {
     let stream = |purpose| moment.source.stream(moment.generation, index as u32, purpose);
     let variation = &strategy.variation;
-    let mut crossing = stream(Purpose::Crossover);
-    let two_parents = happens(variation.crossover_rate, &mut crossing);
+    let (two_parents, mut crossing) = crossing(strategy, moment, index);
     let mut genome = match two_parents {
         true => problem.crossover(mother, father, variation, &mut crossing),
         false => mother.to_vec(),
     };
     problem.mutate(&mut genome, variation, &mut stream(Purpose::Mutation));
     (genome, two_parents)
+}
+
+/// Whether offspring number `index` has two parents, and the stream that they are recombined with.
+fn crossing(strategy: &Strategy, moment: Moment, index: usize) -> (bool, Stream) {
+    let mut rng = moment.source.stream(moment.generation, index as u32, Purpose::Crossover);
+    (happens(strategy.variation.crossover_rate, &mut rng), rng)
+}
+
+/// Phase: the next population.
+pub fn succeed<P: Problem>(
+    problem: &P,
+    old: &[Individual<P::Gene>],
+    brood: Population<P::Gene>,
+    memory: &Memory,
+    strategy: &Strategy,
+    moment: Moment,
+) -> Population<P::Gene> {
+    if let Some(species) = memory.species() {
+        return species.survivors(old, brood, moment.here());
+    }
+    let mut fate = moment.source.stream(moment.generation, u32::MAX, Purpose::Survival);
+    strategy.survival.survivors(problem, old, brood, strategy.elites, &mut fate)
 }
 
 /// A brood that was scored.

@@ -3,7 +3,10 @@
 use super::cma::Cma;
 use super::gene::Gene;
 use super::individual::Individual;
+use super::learned::Learned;
+use super::problem::Problem;
 use super::strategy::{Adaptation, Reproduction, Strategy};
+use super::survival::species::{Here, Species};
 use crate::rng::Stream;
 use serde::{Deserialize, Serialize};
 
@@ -22,32 +25,95 @@ const SCALES: (f64, f64) = (1e-9, 1e3);
 pub struct Memory {
     /// By what the amount of point mutation is multiplied.
     pub amount_scale: f64,
-    /// The distribution that offspring are drawn from, if they are.
-    pub cma: Option<Box<Cma>>,
+    /// What else there is to know, if there is.
+    pub learned: Learned,
 }
 
 impl Default for Memory {
     fn default() -> Self {
-        Self { amount_scale: 1.0, cma: None }
+        Self { amount_scale: 1.0, learned: Learned::Nothing }
     }
 }
 
 impl Memory {
     /// What is known after generation 0: a distribution begins about the centre of its better half.
-    pub fn first<G: Gene>(population: &[Individual<G>], strategy: &Strategy) -> Self {
-        let cma = (strategy.reproduction == Reproduction::CmaEs).then(|| {
-            let order = super::population::ranking(population);
-            let better: Vec<Vec<f64>> = order[..order.len().div_ceil(2)]
-                .iter()
-                .map(|&index| values(&population[index].genome))
-                .collect();
-            let dimensions = better.iter().map(Vec::len).min().unwrap_or(0);
-            let mean = |place: usize| {
-                better.iter().map(|values| values[place]).sum::<f64>() / better.len() as f64
-            };
-            Box::new(Cma::about((0..dimensions).map(mean).collect()))
-        });
-        Self { cma, ..Self::default() }
+    pub fn first<P: Problem>(
+        problem: &P,
+        population: &[Individual<P::Gene>],
+        strategy: &Strategy,
+    ) -> Self {
+        let learned = match strategy.species_radius() {
+            _ if strategy.reproduction == Reproduction::CmaEs => {
+                Learned::Cma(Box::new(Self::first_distribution(population)))
+            }
+            Some(radius) => Learned::Species(Box::new(Species::first(problem, population, radius))),
+            None => Learned::Nothing,
+        };
+        Self { learned, ..Self::default() }
+    }
+
+    fn first_distribution<G: Gene>(population: &[Individual<G>]) -> Cma {
+        let order = super::population::ranking(population);
+        let better: Vec<Vec<f64>> = order[..order.len().div_ceil(2)]
+            .iter()
+            .map(|&index| values(&population[index].genome))
+            .collect();
+        let dimensions = better.iter().map(Vec::len).min().unwrap_or(0);
+        let mean = |place: usize| {
+            better.iter().map(|values| values[place]).sum::<f64>() / better.len() as f64
+        };
+        Cma::about((0..dimensions).map(mean).collect())
+    }
+
+    /// The distribution that offspring are drawn from, if they are.
+    pub fn cma(&self) -> Option<&Cma> {
+        match &self.learned {
+            Learned::Cma(cma) => Some(cma),
+            _ => None,
+        }
+    }
+
+    /// The species of the population, if it has such.
+    pub fn species(&self) -> Option<&Species> {
+        match &self.learned {
+            Learned::Species(species) => Some(species),
+            _ => None,
+        }
+    }
+
+    /// What is known when immigrants have taken places of those who were there `before`.
+    pub fn with_immigrants<P: Problem>(
+        self,
+        problem: &P,
+        before: &[Individual<P::Gene>],
+        now: &[Individual<P::Gene>],
+        strategy: &Strategy,
+        here: Here,
+    ) -> Self {
+        let divide =
+            |species: Species, radius| species.with_immigrants(problem, before, now, radius, here);
+        self.divided(strategy, divide)
+    }
+
+    /// What is known when the offspring of a population have taken its place.
+    pub fn with_heirs<P: Problem>(
+        self,
+        problem: &P,
+        old: &[Individual<P::Gene>],
+        next: &[Individual<P::Gene>],
+        strategy: &Strategy,
+        here: Here,
+    ) -> Self {
+        self.divided(strategy, |species, radius| species.after(problem, old, next, radius, here))
+    }
+
+    fn divided(self, strategy: &Strategy, divide: impl FnOnce(Species, f64) -> Species) -> Self {
+        match (self.learned, strategy.species_radius()) {
+            (Learned::Species(species), Some(radius)) => {
+                Self { learned: Learned::Species(Box::new(divide(*species, radius))), ..self }
+            }
+            (learned, _) => Self { learned, ..self },
+        }
     }
 
     /// What is known after a generation: `brood` are the offspring of `population`. The stream is drawn from where a
@@ -71,7 +137,7 @@ impl Memory {
             };
             self.amount_scale = (self.amount_scale * factor).clamp(SCALES.0, SCALES.1);
         }
-        if let Some(cma) = &mut self.cma {
+        if let Learned::Cma(cma) = &mut self.learned {
             let samples: Vec<_> =
                 brood.iter().map(|one| (values(&one.genome), one.fitness)).collect();
             cma.learn(&samples, rng);
@@ -80,15 +146,26 @@ impl Memory {
     }
 
     /// Whether what was read from a file can be such a state, of an island with this strategy and population.
-    pub fn is_sound<G: Gene>(&self, strategy: &Strategy, population: &[Individual<G>]) -> bool {
-        let learns = strategy.reproduction == Reproduction::CmaEs;
+    pub fn is_sound<G: Gene>(
+        &self,
+        strategy: &Strategy,
+        population: &[Individual<G>],
+        generation: u32,
+    ) -> bool {
+        let is_drawn = strategy.reproduction == Reproduction::CmaEs;
+        let is_divided = strategy.species_radius().is_some();
         let fits = |cma: &Cma| {
             let is_alike = |one: &Individual<G>| values(&one.genome).len() == cma.dimensions();
             cma.is_sound() && population.iter().all(is_alike)
         };
         Self::is_scale(self.amount_scale, strategy.adaptation)
-            && self.cma.is_some() == learns
-            && self.cma.as_ref().is_none_or(|cma| fits(cma))
+            && match &self.learned {
+                Learned::Nothing => !is_drawn && !is_divided,
+                Learned::Cma(cma) => is_drawn && fits(cma),
+                Learned::Species(species) => {
+                    is_divided && species.is_sound(population.len(), generation)
+                }
+            }
     }
 
     /// Whether [`Memory::amount_scale`] can be this.

@@ -39,6 +39,12 @@ pub trait Problem: Sync + Sized {
     /// How different two genomes are, from 0 (equal) to 1 (nothing in common).
     fn distance(&self, a: &[Self::Gene], b: &[Self::Gene]) -> f64;
 
+    /// How different two genomes are where species are told apart by it, 0 if they are equal, and without a bound: by
+    /// default the distance.
+    fn compatibility(&self, a: &[Self::Gene], b: &[Self::Gene]) -> f64 {
+        self.distance(a, b)
+    }
+
     /// Scores a genome.
     fn evaluate(&self, genome: &[Self::Gene]) -> Evaluation;
 

@@ -108,9 +108,14 @@ impl Strategy {
         Strategy { variation, ..*self }
     }
 
-    /// Offspring of a generation.
+    /// Offspring of a generation; where there are species, the most that there can be.
     pub fn brood(&self) -> usize {
         self.population - if self.survival.has_elites() { self.elites } else { 0 }
+    }
+
+    /// The distance from which on individuals are of different species, where parents have offspring in such.
+    pub fn species_radius(&self) -> Option<f64> {
+        self.survival.species_radius().filter(|_| self.reproduction == Reproduction::Parents)
     }
 
     /// How many individuals a population may have.

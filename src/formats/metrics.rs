@@ -41,6 +41,9 @@ pub struct Row {
     pub panicked: u64,
     /// Immigrants that arrived.
     pub immigrants: u32,
+    /// Species of the population at its end; 0 where it is not divided into such.
+    #[serde(default)]
+    pub species: u32,
     /// How long the generation took, waiting included, in seconds. The only column that the seed does not fix.
     pub seconds: f64,
 }
@@ -48,7 +51,7 @@ pub struct Row {
 impl Row {
     /// The row of a report.
     pub fn new(report: &Report, seconds: f64) -> Self {
-        let Report { island, generation, statistics, effort, immigrants } = *report;
+        let Report { island, generation, statistics, effort, immigrants, species } = *report;
         let [_, too_large, not_finite, too_fast, launched, unphysical, panicked] = effort.outcomes;
         Self {
             island,
@@ -68,6 +71,7 @@ impl Row {
             unphysical,
             panicked,
             immigrants,
+            species,
             seconds,
         }
     }
@@ -119,7 +123,8 @@ mod tests {
         // As many of each as its number says.
         let outcomes = std::array::from_fn(|outcome| outcome as u64);
         let effort = Effort { evaluations: outcomes.iter().sum(), reused: 0, outcomes };
-        let report = Report { island: 0, generation: 0, statistics, effort, immigrants: 0 };
+        let report =
+            Report { island: 0, generation: 0, statistics, effort, immigrants: 0, species: 0 };
         let mut bytes = Vec::new();
         write([Ok(Row::new(&report, 0.0))], true, &mut bytes).expect("memory takes everything");
         let mut table = csv::Reader::from_reader(bytes.as_slice());
@@ -157,13 +162,14 @@ mod tests {
             unphysical: 0,
             panicked: 0,
             immigrants: 0,
+            species: 5,
             seconds: 0.25,
         };
         let mut bytes = Vec::new();
         write([Ok(row), Ok(row)], true, &mut bytes).expect("memory takes everything");
         let text = String::from_utf8(bytes.clone()).expect("it is text");
         assert!(
-            text.contains("1,2,0.30000000000000004,,,0.5,0.25,3,1,2,0,0,1,1,0,0,0,0.25\n"),
+            text.contains("1,2,0.30000000000000004,,,0.5,0.25,3,1,2,0,0,1,1,0,0,0,5,0.25\n"),
             "{text}"
         );
         assert_eq!(read(bytes.as_slice()).expect("it is ours"), [row, row]);

@@ -2,7 +2,7 @@
 //!
 //! - [`genome_csv`] reads and writes genomes, in the course's format; [`course`] says ours in the course's terms.
 //! - [`inspection`] says in JSON what a genome became, link by link; [`body_inspection`] what a body that was read is.
-//! - [`vector_csv`] reads and writes genomes of bits or numbers.
+//! - [`vector_csv`] reads and writes genomes of bits or numbers, [`network_csv`] networks, which it also draws.
 //! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
 //! - [`urdf`] reads and writes bodies for other simulators; [`mjcf`] writes them for MuJoCo, [`stl`] for printers.
 //! - [`motion`] is how a body moved.
@@ -19,6 +19,7 @@ pub mod inspection;
 pub mod metrics;
 pub mod mjcf;
 pub mod motion;
+pub mod network_csv;
 mod rotation;
 pub mod stl;
 pub mod terrain;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`tasks`] | How does a genome become a body, and what does the body have to do? |
 //! | [`problems`] | What else can islands evolve, and how do I add a problem of my own? |
+//! | [`networks`] | How do networks grow, and which tests do they pass? |
 //! | [`search`] | Which operators, topologies and policies are there? |
 //! | [`experiments`] | How do I compare settings, and what wins? |
 //! | [`reproducibility`] | Why does the same seed give the same bits, and where does the promise end? |
@@ -23,6 +24,10 @@ pub mod tasks {}
 #[doc = include_str!("links.md")]
 #[doc = include_str!("problems.md")]
 pub mod problems {}
+
+#[doc = include_str!("links.md")]
+#[doc = include_str!("networks.md")]
+pub mod networks {}
 
 #[doc = include_str!("links.md")]
 #[doc = include_str!("search.md")]

@@ -3,7 +3,7 @@
 //! [`locomotion`] evolves creatures that move: [`tasks`] say what they have to do, [`progress`] how far one got,
 //! [`robustness`] what several trials come to, and [`validation`] what one is worth on trials that it was not selected
 //! on; `scoring` is how all that makes a score. [`benchmark`] evolves points that lie low on one of the [`functions`],
-//! and [`bits`] strings of ones and zeros, both of a [`fixed`] length.
+//! and [`bits`] strings of ones and zeros, both of a [`fixed`] length; [`neat`] grows networks that pass a test.
 //!
 //! # A problem of one's own
 //!
@@ -72,6 +72,7 @@ pub mod bits;
 pub mod fixed;
 pub mod functions;
 pub mod locomotion;
+pub mod neat;
 pub mod progress;
 pub mod robustness;
 mod scoring;
@@ -82,6 +83,7 @@ pub use benchmark::{Benchmark, Real};
 pub use bits::{Bit, Bits, Pattern};
 pub use functions::Function;
 pub use locomotion::Locomotion;
+pub use neat::Neat;
 pub use robustness::{RobustBy, Robustness};
 pub use tasks::Task;
 pub use validation::Validation;

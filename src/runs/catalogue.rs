@@ -3,7 +3,7 @@
 use super::config::Config;
 use super::kind::Kind;
 use super::subject::Subject;
-use crate::problems::{Benchmark, Bits};
+use crate::problems::{Benchmark, Bits, Neat};
 
 /// What is done with a problem, whichever it is.
 pub trait Visitor {
@@ -24,6 +24,7 @@ impl Config {
                 visitor.visit(Benchmark::new(function, dimensions, instance, rotated))
             }
             Kind::Bits(pattern) => visitor.visit(Bits { pattern, bits: dimensions, block }),
+            Kind::Network(test) => visitor.visit(Neat { test, start: self.start }),
         }
     }
 }
@@ -142,7 +143,7 @@ mod tests {
                 }
             }
         }
-        for problem in Kind::all().into_iter().filter(|kind| *kind != Kind::Creatures) {
+        for problem in Kind::all().into_iter().filter(|kind| kind.is_of_one_length()) {
             usual(problem).visit(Breeder(&usual(problem)));
         }
     }

@@ -1,6 +1,7 @@
 //! What can be evolved, by name.
 
 use crate::choice;
+use crate::problems::neat::Test;
 use crate::problems::{Function, Pattern};
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +16,8 @@ pub enum Kind {
     Function(Function),
     /// Strings of ones and zeros.
     Bits(Pattern),
+    /// Networks that grow.
+    Network(Test),
 }
 
 impl Kind {
@@ -22,7 +25,8 @@ impl Kind {
     pub fn all() -> Vec<Self> {
         let functions = Function::ALL.map(Kind::Function);
         let bits = Pattern::ALL.map(Kind::Bits);
-        [Kind::Creatures].into_iter().chain(functions).chain(bits).collect()
+        let networks = Test::ALL.map(Kind::Network);
+        [Kind::Creatures].into_iter().chain(functions).chain(bits).chain(networks).collect()
     }
 
     /// Every problem, as `--help` lists them.
@@ -45,6 +49,7 @@ impl Kind {
             Kind::Creatures => "creatures",
             Kind::Function(_) => "functions",
             Kind::Bits(_) => "bits",
+            Kind::Network(_) => "networks",
         }
     }
 
@@ -55,7 +60,7 @@ impl Kind {
 
     /// Whether all genomes have the same length.
     pub fn is_of_one_length(self) -> bool {
-        !self.has_bodies()
+        matches!(self, Kind::Function(_) | Kind::Bits(_))
     }
 
     /// Whether genomes may have any length.
@@ -68,9 +73,29 @@ impl Kind {
         matches!(self, Kind::Function(_))
     }
 
-    /// Whether genes are numbers, which can change by an amount; bits change wholly or not at all.
+    /// Whether genes hold numbers, which can change by an amount; bits change wholly or not at all.
     pub fn has_numbers(self) -> bool {
         !matches!(self, Kind::Bits(_))
+    }
+
+    /// Whether networks grow, by operators of their own.
+    pub fn is_network(self) -> bool {
+        matches!(self, Kind::Network(_))
+    }
+
+    /// Whether operators on sequences of genes vary genomes.
+    pub fn has_sequences(self) -> bool {
+        !self.is_network()
+    }
+
+    /// Whether operators on numbers vary genes.
+    pub fn has_vectors(self) -> bool {
+        self.has_numbers() && self.has_sequences()
+    }
+
+    /// Whether a random genome has a number of genes that can be chosen.
+    pub fn has_genes(self) -> bool {
+        self.has_bodies()
     }
 
     /// Whether a genome is made of blocks.
@@ -82,7 +107,7 @@ impl Kind {
     pub fn usual_dimensions(self) -> usize {
         match self {
             Kind::Bits(pattern) => pattern.usual_bits(),
-            Kind::Creatures | Kind::Function(_) => 30,
+            Kind::Creatures | Kind::Function(_) | Kind::Network(_) => 30,
         }
     }
 }
@@ -93,6 +118,7 @@ impl std::fmt::Display for Kind {
             Kind::Creatures => f.write_str("creatures"),
             Kind::Function(function) => function.fmt(f),
             Kind::Bits(pattern) => pattern.fmt(f),
+            Kind::Network(test) => test.fmt(f),
         }
     }
 }

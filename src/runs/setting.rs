@@ -16,7 +16,7 @@ use std::str::FromStr;
 pub enum Section {
     /// What every run has; without a heading.
     Run,
-    /// Functions and bits.
+    /// Functions, bits and networks.
     Vectors,
     /// Creatures: their bodies, and how they are tried.
     Creatures,
@@ -43,7 +43,7 @@ impl Section {
     pub fn heading(self) -> Option<&'static str> {
         match self {
             Section::Run => None,
-            Section::Vectors => Some("Functions and bits"),
+            Section::Vectors => Some("Functions, bits and networks"),
             Section::Creatures => Some("Creatures"),
             Section::GeneticAlgorithm => Some("Genetic algorithm"),
             Section::Migration => Some("Migration"),

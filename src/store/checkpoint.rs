@@ -91,7 +91,7 @@ mod tests {
     use crate::creature::Gene;
     use crate::evolution::cma::Cma;
     use crate::evolution::generation::Effort;
-    use crate::evolution::{Fitness, Id, Individual, Memory};
+    use crate::evolution::{Fitness, Id, Individual, Learned, Memory};
 
     fn checkpoint() -> Checkpoint<Gene> {
         let individual = Individual {
@@ -102,13 +102,14 @@ mod tests {
             fitness: Fitness::new(1.5),
         };
         let failed = Individual { fitness: Fitness::WORST, ..individual.clone() };
+        let learned = Learned::Cma(Box::new(Cma::about(vec![0.25, 0.5])));
         let island = Island {
             index: 1,
             generation: 2,
             population: vec![individual.clone(), failed],
             champion: individual,
             effort: Effort::default(),
-            memory: Memory { amount_scale: 0.5, cma: Some(Box::new(Cma::about(vec![0.25, 0.5]))) },
+            memory: Memory { amount_scale: 0.5, learned },
         };
         Checkpoint { settings: "seed = 7\n".to_owned(), island }
     }

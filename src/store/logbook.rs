@@ -6,23 +6,14 @@
 //! islands do not wait for each other, what they took in is recorded before a generation is evolved with it.
 
 use super::checkpoint::Checkpoint;
+use super::entry::Entry;
 use super::{Checkpoints, Journal, RecordLog, RunDir, StoreError};
 use crate::archipelago::arrivals::check_record;
 use crate::archipelago::{
-    Archipelago, Arrivals, Births, Champion, ExchangeMode, Island, Outbox, Report, Step,
+    Archipelago, Arrivals, Births, Champion, ExchangeMode, Island, Outbox, Step,
 };
 use crate::evolution::Gene;
-use serde::{Deserialize, Serialize};
 use std::path::Path;
-
-/// A generation of an island.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Entry {
-    /// What it was like.
-    pub report: Report,
-    /// Wall seconds that it took, waiting included: all in an island's files that the seed does not fix.
-    pub seconds: f64,
-}
 
 /// An island's files, open for writing; nobody else writes them.
 #[derive(Debug)]

@@ -12,6 +12,7 @@
 pub mod atomic;
 pub mod checkpoint;
 pub mod checkpoints;
+pub mod entry;
 pub mod experiment_dir;
 pub mod file;
 pub mod journal;
@@ -22,9 +23,10 @@ mod tail;
 
 pub use checkpoint::Checkpoint;
 pub use checkpoints::Checkpoints;
+pub use entry::Entry;
 pub use experiment_dir::ExperimentDir;
 pub use journal::{Journal, JournalReader};
-pub use logbook::{Entry, Logbook, Restored};
+pub use logbook::{Logbook, Restored};
 pub use record_log::RecordLog;
 pub use run_dir::{Claim, RunDir};
 pub use tail::{Index, Tail};

@@ -112,7 +112,7 @@ impl Limits {
         seconds: f64,
         champion: Option<&Champion<G>>,
     ) -> Result<ReportHeader, Rejection> {
-        let Report { island, generation, statistics, effort, immigrants } = *report;
+        let Report { island, generation, statistics, effort, immigrants, species } = *report;
         let header = champion.map(|champion| self.individual_header(&champion.individual));
         let header = header.transpose()?;
         let validated = champion.and_then(|champion| champion.validated);
@@ -136,6 +136,8 @@ impl Limits {
             evaluations: effort.evaluations,
             reused: effort.reused,
             outcomes: effort.outcomes,
+            species,
+            reserved: 0,
         })
     }
 
@@ -165,6 +167,7 @@ impl Limits {
             statistics: statistics(&header)?,
             effort: effort(&header)?,
             immigrants: header.immigrants,
+            species: header.species,
         };
         Ok(Sighting { report, seconds: header.seconds, champion })
     }

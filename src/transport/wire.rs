@@ -67,7 +67,7 @@ pub struct BatchHeader {
 /// The header of a report; the payload is the genome of a new champion, or nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, ZeroCopySend)]
 #[repr(C)]
-#[type_name("islands.ReportHeader.v4")]
+#[type_name("islands.ReportHeader.v5")]
 pub struct ReportHeader {
     /// The run that it belongs to.
     pub run_id: u64,
@@ -107,6 +107,10 @@ pub struct ReportHeader {
     pub reused: u64,
     /// How evaluations ended, in the order of [`Outcome::ALL`].
     pub outcomes: [u64; Outcome::ALL.len()],
+    /// Species of the population.
+    pub species: u32,
+    /// Zero: makes the padding a field, so that no byte is left to chance.
+    pub reserved: u32,
 }
 
 /// Asks an island to send its outboxes from an epoch on once more.
@@ -125,5 +129,5 @@ pub struct ResendRequest {
 // A changed size is a changed layout: give the type a new name, and only then change the number.
 const _: () = assert!(size_of::<IndividualHeader>() == 56);
 const _: () = assert!(size_of::<BatchHeader>() == 24 + 56 * MIGRANTS_MAX);
-const _: () = assert!(size_of::<ReportHeader>() == 24 + 56 + 11 * 8 + 16 * 4 + 7 * 8);
+const _: () = assert!(size_of::<ReportHeader>() == 24 + 56 + 11 * 8 + 16 * 4 + 7 * 8 + 8);
 const _: () = assert!(size_of::<ResendRequest>() == 16);

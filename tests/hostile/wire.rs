@@ -83,8 +83,8 @@ fn batch_fields(header: &mut BatchHeader, fields: &mut Fields<'_>) {
 
 fn report_fields(header: &mut ReportHeader, fields: &mut Fields<'_>) {
     fields.u64(&mut header.run_id);
-    let ReportHeader { island, generation, immigrants, has_champion, .. } = header;
-    for field in [island, generation, immigrants, has_champion] {
+    let ReportHeader { island, generation, immigrants, has_champion, species, .. } = header;
+    for field in [island, generation, immigrants, has_champion, species] {
         fields.u32(field);
     }
     individual_fields(&mut header.champion, fields);

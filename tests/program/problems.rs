@@ -194,7 +194,7 @@ fn what_makes_no_sense_for_a_problem_is_refused_with_a_sentence() {
     ];
     #[cfg(feature = "view")]
     expect![[r#"
-        invalid value 'cube' for '--problem <PROBLEM>': unknown problem “cube”: choose one of creatures, sphere, rastrigin, rosenbrock, ackley, schwefel, griewank, onemax, trap, royal-road
+        invalid value 'cube' for '--problem <PROBLEM>': unknown problem “cube”: choose one of creatures, sphere, rastrigin, rosenbrock, ackley, schwefel, griewank, onemax, trap, royal-road, xor, double-pole, double-pole-blind
         task means nothing to sphere: leave it out, or choose another --problem
         genes means nothing to sphere: leave it out, or choose another --problem
         block means nothing to rastrigin: leave it out, or choose another --problem

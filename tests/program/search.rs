@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::fs;
 
 /// Ways to search that differ in as much as possible; among them every algorithm, survival and adaptation.
-const WAYS: [&str; 9] = [
+const WAYS: [&str; 11] = [
     "--problem sphere --dimensions 4 --algorithm cma-es",
     "--problem sphere --dimensions 4 --algorithm hill-climb --mutation gaussian",
     "--problem onemax --dimensions 30 --algorithm random",
@@ -20,6 +20,8 @@ const WAYS: [&str; 9] = [
     "--problem schwefel --dimensions 4 --survival map-elites:5 --replacement random --topology full",
     "--problem rosenbrock --dimensions 4 --selection rank --crossover two-point --emigrants random \
      --replacement similar --topology bidirectional-ring --adaptation one-fifth",
+    "--problem xor",
+    "--problem double-pole --start random:4 --survival species:2 --replacement similar",
 ];
 
 const SIZE: &str = "--n 4 --seed 3 --population 8 --generations 25 --migration-interval 2";
@@ -57,7 +59,7 @@ fn a_climber_crosses_what_is_flat() {
 fn whatever_searches_a_run_whose_processes_are_killed_comes_to_the_same() {
     let world = World::new();
     for (number, way) in
-        WAYS.into_iter().enumerate().filter(|(number, _)| [0, 4, 6, 7].contains(number))
+        WAYS.into_iter().enumerate().filter(|(number, _)| [0, 4, 6, 7, 9].contains(number))
     {
         let settings = format!("{way} {SIZE} --generations 400 --checkpoint-interval 3");
         let settings = settings.replace("--generations 25 ", "");

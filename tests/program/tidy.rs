@@ -5,13 +5,14 @@ use std::fs;
 use std::process::Command;
 
 /// The floor of each module: it imports only from lower ones.
-const FLOORS: [(&str, u8); 17] = [
+const FLOORS: [(&str, u8); 18] = [
     ("choice", 0),
     ("rng", 0),
     ("statistics", 0),
     ("work_queue", 0),
     ("evolution", 1),
     ("creature", 1),
+    ("networks", 1),
     ("archipelago", 2),
     ("simulation", 2),
     ("problems", 3),

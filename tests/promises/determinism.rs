@@ -110,6 +110,7 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
         "course-coursework",
         "debug-featherstone",
         "debug",
+        "double-pole-species",
         "griewank-sharing",
         "rastrigin",
         "royal-road-hill-climb",
@@ -121,6 +122,7 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
         "travel-worst",
         "walk-featherstone",
         "walk-native",
+        "xor-species",
     ];
     assert_eq!(names, expected);
     let world = World::new();

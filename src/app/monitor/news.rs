@@ -91,8 +91,14 @@ mod tests {
             phenotype_diversity: 0.5,
             spread: Spread::of(&[]),
         };
-        let report =
-            Report { island: 1, generation, statistics, effort: Effort::default(), immigrants };
+        let report = Report {
+            island: 1,
+            generation,
+            statistics,
+            effort: Effort::default(),
+            immigrants,
+            species: 0,
+        };
         let champion = born_on.map(|island| Champion {
             generation,
             individual: Individual {

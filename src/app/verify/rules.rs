@@ -102,10 +102,11 @@ impl<'a> Terms<'a> {
         if (report.island, report.generation) != (island, generation) {
             return wrong("is of another island or generation");
         }
-        let brood = self.brood(generation) as u64;
+        let broods = self.broods(generation);
         let Effort { evaluations, reused, outcomes } = report.effort;
         let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
-        if evaluations.checked_add(reused) != Some(brood) || ended != Some(evaluations) {
+        let tried = evaluations.checked_add(reused).and_then(|it| usize::try_from(it).ok());
+        if !tried.is_some_and(|tried| broods.contains(&tried)) || ended != Some(evaluations) {
             return wrong("counts evaluations that cannot have been");
         }
         let senders = self.graph.in_neighbours(island).len();
@@ -169,7 +170,7 @@ impl<'a> Terms<'a> {
         let Config { population, islands, .. } = *self.config;
         let adaptation = self.archipelago.strategy.adaptation;
         let is_scale = Memory::is_scale(found.amount_scale, adaptation);
-        let has_size = found.births.len() == self.brood(generation);
+        let has_size = self.broods(generation).contains(&found.births.len());
         if found.generation != generation || !has_size || !is_scale {
             return wrong("is of another generation or size");
         }
@@ -188,7 +189,7 @@ impl<'a> Terms<'a> {
         }
         let best = found.births.iter().map(|birth| birth.fitness).max();
         let Some(lived) = entry.map(|entry| entry.report.statistics.best) else { return Ok(()) };
-        if best > Some(lived) || (!self.keeps_its_best() && best != Some(lived)) {
+        if best > Some(lived) || (!self.keeps_some() && best != Some(lived)) {
             return wrong("disagrees with its report");
         }
         Ok(())
@@ -251,10 +252,14 @@ impl<'a> Terms<'a> {
         Ok(())
     }
 
-    /// How many are born in a generation.
-    fn brood(&self, generation: u32) -> usize {
+    /// How many can be born in a generation: where there are species, fewer by those whose champions live on.
+    fn broods(&self, generation: u32) -> RangeInclusive<usize> {
         let strategy = &self.archipelago.strategy;
-        if generation == 0 { strategy.population } else { strategy.brood() }
+        match generation {
+            0 => strategy.population..=strategy.population,
+            _ if strategy.species_radius().is_some() => 0..=strategy.brood(),
+            _ => strategy.brood()..=strategy.brood(),
+        }
     }
 
     /// Whether the population is a map, which may have fewer individuals than are to be sent.
@@ -268,10 +273,16 @@ impl<'a> Terms<'a> {
         strategy.survival.newcomers() > 0 || strategy.reproduction != Reproduction::Parents
     }
 
+    /// Whether somebody of a population lives on.
+    fn keeps_some(&self) -> bool {
+        self.keeps_its_best() || self.archipelago.strategy.species_radius().is_some()
+    }
+
     /// Whether the best of a population lives on.
     fn keeps_its_best(&self) -> bool {
         let strategy = &self.archipelago.strategy;
-        strategy.elites > 0 || !strategy.survival.has_elites()
+        let is_steady = !strategy.survival.has_elites();
+        strategy.species_radius().is_none() && (strategy.elites > 0 || is_steady)
     }
 
     /// Whether its islands do not wait for each other.

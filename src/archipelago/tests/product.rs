@@ -18,10 +18,11 @@ const SCHEDULES: u64 = 3;
 const EMIGRANTS: [Emigrants; 3] =
     [Emigrants::Best, Emigrants::Random, Emigrants::Tournament { size: 2 }];
 const SELECTIONS: [Selection; 2] = [Selection::Tournament { size: 2 }, Selection::Sus];
-const SURVIVALS: [Survival; 6] = [
+const SURVIVALS: [Survival; 7] = [
     Survival::Generational,
     Survival::Drifting,
     Survival::Sharing { radius: 0.3 },
+    Survival::Species { radius: 0.3 },
     Survival::Crowding,
     Survival::Afpo,
     Survival::MapElites { bins: 4 },

@@ -7,6 +7,7 @@ pub mod elitist;
 pub mod map_elites;
 pub mod scheme;
 pub mod sharing;
+pub mod species;
 
 use super::individual::Individual;
 use super::population::Population;
@@ -34,6 +35,11 @@ pub enum Survival {
         /// The distance from which on two individuals share nothing, above 0, at most 1.
         radius: f64,
     },
+    /// [`species::Species`]: who is alike shares its fitness, and the best of each large species lives on.
+    Species {
+        /// The distance ([`Problem::compatibility`]) from which on two individuals are of different species, above 0.
+        radius: f64,
+    },
     /// [`crowding::crowd`]: an offspring replaces the parent that is more like it, if it is better.
     Crowding,
     /// [`afpo::pareto`]: age-fitness Pareto optimisation, with one random newcomer a generation.
@@ -51,6 +57,7 @@ impl fmt::Display for Survival {
             Survival::Generational => write!(f, "generational"),
             Survival::Drifting => write!(f, "drifting"),
             Survival::Sharing { radius } => write!(f, "sharing:{radius}"),
+            Survival::Species { radius } => write!(f, "species:{radius}"),
             Survival::Crowding => write!(f, "crowding"),
             Survival::Afpo => write!(f, "afpo"),
             Survival::MapElites { bins } => write!(f, "map-elites:{bins}"),
@@ -68,6 +75,7 @@ impl FromStr for Survival {
             "generational" => scheme.plain(Survival::Generational),
             "drifting" => scheme.plain(Survival::Drifting),
             "sharing" => Ok(Survival::Sharing { radius: scheme.number(0.1, 1e-6, 1.0)? }),
+            "species" => Ok(Survival::Species { radius: scheme.number(3.0, 1e-6, 1e6)? }),
             "crowding" => scheme.plain(Survival::Crowding),
             "afpo" => scheme.plain(Survival::Afpo),
             "map-elites" => {
@@ -75,7 +83,7 @@ impl FromStr for Survival {
             }
             _ => Err(scheme.unknown(
                 "survival",
-                "generational, drifting, sharing:0.1, crowding, afpo or map-elites:8",
+                "generational, drifting, sharing:0.1, species:3, crowding, afpo or map-elites:8",
             )),
         }
     }
@@ -90,6 +98,7 @@ macro_rules! with {
             Survival::Generational => with!(@ $scheme = elitist::Generational => $done),
             Survival::Drifting => with!(@ $scheme = elitist::Drifting => $done),
             Survival::Sharing { radius } => with!(@ $scheme = sharing::Sharing { radius } => $done),
+            Survival::Species { radius } => with!(@ $scheme = species::Divided { radius } => $done),
             Survival::Crowding => with!(@ $scheme = crowding::Crowding => $done),
             Survival::Afpo => with!(@ $scheme = afpo::Afpo => $done),
             Survival::MapElites { bins } => with!(@ $scheme = map_elites::MapElites { bins } => $done),
@@ -129,6 +138,16 @@ impl Survival {
     /// Whether there are elites, and parents are picked by selection: [`Scheme::has_elites`].
     pub fn has_elites(self) -> bool {
         with!(self, scheme => scheme.has_elites())
+    }
+
+    /// Whether selection picks parents: [`Scheme::has_selection`].
+    pub fn has_selection(self) -> bool {
+        with!(self, scheme => scheme.has_selection())
+    }
+
+    /// The distance from which on individuals are of different species: [`Scheme::species_radius`].
+    pub fn species_radius(self) -> Option<f64> {
+        with!(self, scheme => scheme.species_radius())
     }
 
     /// How parents are picked if nothing is said: [`Scheme::usual_selection`].

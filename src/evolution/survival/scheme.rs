@@ -41,6 +41,16 @@ pub trait Scheme: Copy {
         true
     }
 
+    /// Whether selection picks parents.
+    fn has_selection(self) -> bool {
+        self.has_elites()
+    }
+
+    /// The distance from which on individuals are of different species, where a population is divided into such.
+    fn species_radius(self) -> Option<f64> {
+        None
+    }
+
     /// How parents are picked if nothing is said, where it is not as usual.
     fn usual_selection(self) -> Option<Selection> {
         None

@@ -243,3 +243,65 @@ fn a_scheme_is_read_as_it_is_written() {
         assert!(wrong.parse::<Survival>().is_err(), "{wrong}");
     }
 }
+
+/// Two crowds of six and a loner, whose fitness is its place.
+fn crowds() -> Vec<Individual<Place>> {
+    let places = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15, 0.5, 0.8, 0.81, 0.82, 0.83, 0.84, 0.85];
+    (0..).zip(places).map(|(index, place)| one(index, place, place)).collect()
+}
+
+fn here(generation: u32) -> species::Here {
+    species::Here { source: SOURCE, generation }
+}
+
+#[test]
+fn who_is_alike_is_of_one_species_and_mean_fitness_decides_how_many_offspring_it_has() {
+    let population = crowds();
+    let species = species::Species::first(&Line, &population, 0.2);
+    assert_eq!(species.of_each(), [0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 2, 2]);
+    let uniform = Selection::Tournament { size: 1 };
+    let couples = species.couples(&population, uniform, |index| index % 2 == 0, here(1));
+    // Means of 0.125, 0.5 and 0.825 share 13 places; of two species of six the champions live on.
+    assert_eq!(couples.len(), 11);
+    let mothers = |own: std::ops::Range<usize>| {
+        couples.iter().filter(|couple| own.contains(&couple[0])).count()
+    };
+    assert_eq!([mothers(0..6), mothers(6..7), mothers(7..13)], [0, 5, 6]);
+    assert!(couples.iter().all(|&[mother, father]| mother >= father), "she is the fitter one");
+    let next = species.survivors(&population, vec![one(99, 0.1, 0.1); 11], here(1));
+    assert_eq!(indices(&next)[..3], [5, 12, 99], "champions of more than five live on");
+    assert_eq!(next.len(), population.len());
+}
+
+#[test]
+fn a_species_that_does_not_improve_for_fifteen_generations_has_no_offspring() {
+    let mut population = crowds();
+    let mut species = species::Species::first(&Line, &population, 0.2);
+    for generation in 1..=17 {
+        let couples =
+            species.couples(&population, Selection::Roulette, |_| false, here(generation));
+        let has_offspring =
+            |own: std::ops::Range<usize>| couples.iter().any(|couple| own.contains(&couple[0]));
+        assert_eq!(has_offspring(6..7), generation <= 15, "generation {generation}");
+        assert!(has_offspring(7..13));
+        let next: Vec<_> = population.clone();
+        // The best of the last species gets better and better.
+        population[12].fitness = Fitness::new(f64::from(generation));
+        species = species.after(&Line, &next, &population, 0.2, here(generation));
+        assert_eq!(species.count(), 3);
+        assert!(species.is_sound(13, generation) && !species.is_sound(12, generation));
+    }
+}
+
+#[test]
+fn an_immigrant_finds_its_species_or_founds_one_and_residents_keep_theirs() {
+    let before = crowds();
+    let species = species::Species::first(&Line, &before, 0.2);
+    let mut now = before.clone();
+    now[0] = one(50, 0.84, 0.1);
+    now[1] = one(51, 0.3001, 0.1);
+    let species = species.with_immigrants(&Line, &before, &now, 0.1, here(1));
+    assert_eq!(species.of_each()[..3], [2, 3, 0]);
+    assert_eq!(species.of_each()[6..], [1, 2, 2, 2, 2, 2, 2]);
+    assert_eq!(species.count(), 4);
+}

@@ -67,11 +67,11 @@ impl Config {
         let values = match self.problem {
             Kind::Creatures => self.genes.saturating_mul(PARAMETER_COUNT),
             Kind::Function(_) => self.dimensions,
-            Kind::Bits(_) => 0,
+            Kind::Bits(_) | Kind::Network(_) => 0,
         };
         match self.algorithm {
             Algorithm::CmaEs if values == 0 => Err(Failure::usage(format!(
-                "cma-es learns from numbers, and {} has bits",
+                "cma-es learns from numbers, and the genes of {} are none",
                 self.problem
             ))),
             Algorithm::CmaEs if values > cma::DIMENSIONS_MAX => Err(Failure::usage(format!(

@@ -6,6 +6,7 @@ use super::written::{Launch, SeedGenomes};
 use crate::archipelago::{Algorithm, Emigrants, ExchangeMode, Replacement, Topology};
 use crate::creature::{Profile, Scales};
 use crate::evolution::{Adaptation, Crossover, Mutation, Selection, Survival};
+use crate::networks::Start;
 use crate::problems::{RobustBy, Robustness, Task};
 use crate::runs::kind::Kind;
 use crate::runs::setting::Section::{Creatures, GeneticAlgorithm, Run, Running, Vectors};
@@ -40,6 +41,8 @@ settings! {
     rotated: bool = false, of(Vectors).for_problem(Kind::is_function);
     /// Bits of a block of trap or royal-road
     block: usize = 5, of(Vectors).value("K").for_problem(Kind::has_blocks);
+    /// First networks: minimal (nothing hidden), layer:NEURONS or random:NEURONS
+    start: Start = Start::Minimal, of(Vectors).value("HOW").for_problem(Kind::is_network);
 
     /// Task of creatures
     task: Task => locomotion.task, of(Creatures).tries_bodies().one_of(Task::list);
@@ -61,29 +64,31 @@ settings! {
 
     /// Genes of a random genome
     genes: usize => locomotion.genes,
-        of(GeneticAlgorithm).value("G").for_problem(Kind::is_of_any_length), in |it| 1.0..=it.max_genes as f64;
+        of(GeneticAlgorithm).value("G").for_problem(Kind::has_genes), in |it| 1.0..=it.max_genes as f64;
     /// Largest number of genes of a genome
     max_genes: usize => archipelago.strategy.variation.genes_max,
         of(GeneticAlgorithm).value("G").for_problem(Kind::is_of_any_length), in |_| 1.0..=GENES_MAX as f64;
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION; with --survival
     /// sharing the default is sus
     selection: Selection => archipelago.strategy.selection,
-        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::has_elites);
+        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::has_selection);
     /// Number of the best that live on unchanged
     elites: usize => archipelago.strategy.elites,
         of(GeneticAlgorithm).value("E").for_survival(Survival::has_elites), in |it| 0.0..=it.population as f64 - 1.0;
-    /// How the next population is made: generational, drifting, sharing:RADIUS, crowding, afpo or map-elites:BINS
+    /// How the next population is made: generational, drifting, sharing:RADIUS, species:RADIUS (as NEAT
+    /// has them), crowding, afpo or map-elites:BINS
     survival: Survival => archipelago.strategy.survival,
         of(GeneticAlgorithm).value("SCHEME").for_algorithm(Algorithm::is_genetic);
     /// How two parents are recombined: one-point, two-point, uniform, blend:ALPHA or sbx:ETA
-    crossover: Crossover => archipelago.strategy.variation.crossover, of(GeneticAlgorithm).value("OPERATOR");
+    crossover: Crossover => archipelago.strategy.variation.crossover,
+        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_sequences);
     /// Probability that an offspring has two parents
     crossover_rate: f64 => archipelago.strategy.variation.crossover_rate,
         of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
     /// How a value is changed: uniform, gaussian or polynomial:ETA
     mutation: Mutation => archipelago.strategy.variation.mutation,
-        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_numbers);
-    /// Probability that a value of a gene is changed
+        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_vectors);
+    /// Probability that a value of a gene is changed; of networks, that the weights of an offspring are
     point_rate: f64 => archipelago.strategy.variation.point_rate,
         of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
     /// Scale of such a change, as a share of the value's range
@@ -91,16 +96,16 @@ settings! {
         of(GeneticAlgorithm).value("0..1").for_problem(Kind::has_numbers), in |_| 0.0..=1.0;
     /// Probability that an offspring loses a gene
     shrink_rate: f64 => archipelago.strategy.variation.shrink_rate,
-        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
-    /// Probability that an offspring gains a gene
+        of(GeneticAlgorithm).value("0..1").for_problem(Kind::has_genes), in |_| 0.0..=1.0;
+    /// Probability that an offspring gains a gene, which is a link of networks
     grow_rate: f64 => archipelago.strategy.variation.grow_rate,
         of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
-    /// Probability that an offspring repeats one of its limbs
+    /// Probability that an offspring repeats one of its limbs; of networks, that a new neuron splits a link
     duplicate_rate: f64 => archipelago.strategy.variation.duplicate_rate,
         of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
     /// What changes the scale of mutation on the way: none, or one-fifth (the 1/5 success rule)
     adaptation: Adaptation => archipelago.strategy.adaptation,
-        of(GeneticAlgorithm).value("RULE").for_problem(Kind::has_numbers);
+        of(GeneticAlgorithm).value("RULE").for_problem(Kind::has_vectors);
     /// Each island has crossover and mutation rates of its own
     heterogeneous: bool => archipelago.strategy.heterogeneous,
         of(GeneticAlgorithm).for_algorithm(Algorithm::has_islands);

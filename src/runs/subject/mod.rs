@@ -2,6 +2,7 @@
 //! names it in [the catalogue](super::catalogue), has it on islands that are processes, saved, verified and watched.
 
 mod creatures;
+mod networks;
 mod vectors;
 
 #[cfg(feature = "view")]

@@ -105,6 +105,7 @@ fn report(island: u32, generation: u32) -> Report {
         },
         effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1] },
         immigrants: 2,
+        species: 4,
     }
 }
 

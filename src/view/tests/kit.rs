@@ -76,7 +76,7 @@ pub fn report(island: u32, generation: u32) -> Report {
         phenotype_diversity: 0.5,
         spread: Spread::of(&(0..50).map(|i| f64::from(i * i) / 1000.0).collect::<Vec<_>>()),
     };
-    Report { island, generation, statistics, effort: Effort::default(), immigrants: 0 }
+    Report { island, generation, statistics, effort: Effort::default(), immigrants: 0, species: 0 }
 }
 
 /// A box that walks along x on pairs of legs of two cylinders each, at 60 frames a second.
