@@ -27,10 +27,7 @@ pub fn away_m(track_m: &[Vector2<f64>]) -> f64 {
 /// A ruler does not see what is shorter than it (Richardson 1961, who measured coasts): however fast a body rocks,
 /// trembles or spins in place, it gets no farther than its own reach from where it is.
 pub fn travelled_m(track_m: &[Vector2<f64>], ruler_m: f64) -> f64 {
-    let lengths_m = lengths_m(track_m, ruler_m);
-    let Some(whole) = lengths_m.last() else { return 0.0 };
-    let left = without_half(&lengths_m).map(|half| whole - (half[half.len() - 1] - half[0]));
-    left.fold(*whole, |least, left| least.min(2.0 * left)).max(0.0)
+    kept(&lengths_m(track_m, ruler_m)).max(0.0)
 }
 
 /// The height that a body gained and kept, in metres, but at most twice what is left of it without its best half.
@@ -47,8 +44,15 @@ pub fn climbed_m(heights_m: &[f64]) -> f64 {
         kept_m[i - 1] = kept_m[i - 1].min(kept_m[i]);
     }
     kept_m.iter_mut().for_each(|height| *height = height.max(0.0));
-    let whole = kept_m[kept_m.len() - 1];
-    let left = without_half(&kept_m).map(|half| whole - (half[half.len() - 1] - half[0]));
+    kept(&kept_m)
+}
+
+/// What a series gains from its first moment to its last, in its unit, but at most twice what is left of that without
+/// its best half; below zero for what falls.
+pub fn kept(series: &[f64]) -> f64 {
+    let (Some(first), Some(last)) = (series.first(), series.last()) else { return 0.0 };
+    let whole = last - first;
+    let left = without_half(series).map(|half| whole - (half[half.len() - 1] - half[0]));
     left.fold(whole, |least, left| least.min(2.0 * left))
 }
 
