@@ -66,6 +66,8 @@ tasks! {
     Course => course,
     /// To get up a mountain.
     Climb => climb,
+    /// To turn about the vertical.
+    Turn => turn,
 }
 
 impl Task {
