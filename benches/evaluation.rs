@@ -3,7 +3,7 @@
 //! `cargo bench --bench evaluation`
 
 use criterion::{BenchmarkId, Criterion, SamplingMode, Throughput};
-use islands::creature::Gene;
+use islands::creature::{Course, Encoding, Gene};
 use islands::evolution::{Outcome, Problem};
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
@@ -28,8 +28,7 @@ fn evaluation(criterion: &mut Criterion) {
     // This task alone has as many steps for every body.
     let problem = Locomotion {
         task: Task::Course,
-        genes: 1,
-        links_max: LINKS_MAX,
+        encoding: Course { genes: 1, links_max: LINKS_MAX, ..Course::DEFAULT },
         ..Locomotion::single(Engine::Featherstone)
     };
     let mut group = criterion.benchmark_group("evaluation");
@@ -61,7 +60,7 @@ fn genomes_of(problem: &Locomotion, links: usize) -> Vec<Vec<Gene>> {
     let genome = |index: u32| {
         let genes = 1 + (index % GENES_MAX) as usize;
         let mut stream = source.stream(0, index, Purpose::Genesis);
-        Locomotion { genes, ..*problem }.random_genome(&mut stream)
+        Course { genes, ..problem.encoding }.random_genome(&mut stream)
     };
     let is_right = |genome: &Vec<Gene>| {
         let creature = problem.express(genome).expect("a native body is never refused");

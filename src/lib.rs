@@ -17,18 +17,18 @@
 //! |   | [`statistics`] | what repeated runs come to, and whether two sets of them differ |
 //! |   | [`work_queue`] | work dealt out to threads, the dearest first |
 //! | 1 | [`evolution`] | problems, fitness, selection, variation, survival: a genetic algorithm that knows no creature |
-//! |   | [`creature`] | genes become a body and its motors, knowing no physics engine |
 //! |   | [`networks`] | networks that grow (NEAT), and what their neurons do |
-//! | 2 | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
-//! |   | [`simulation`] | bodies tried in rapier or a stepper of our own |
-//! | 3 | [`problems`] | what can be evolved: creatures that move, points of functions, bits, networks |
-//! | 4 | [`transport`] | exchange between processes through iceoryx2 |
+//! | 2 | [`creature`] | genes become a body and what moves it, knowing no physics engine |
+//! |   | [`archipelago`] | islands, their step as a pure function, who sends what to whom when |
+//! | 3 | [`simulation`] | bodies tried in rapier or a stepper of our own |
+//! | 4 | [`problems`] | what can be evolved: creatures that move, points of functions, bits, networks |
+//! | 5 | [`transport`] | exchange between processes through iceoryx2 |
 //! |   | [`store`] | what a run leaves on disk |
 //! |   | [`formats`] | files for people and other programs |
 //! |   | `view` | the run as a film in Rerun (feature `view`) |
-//! | 5 | [`runs`] | a run as a library: its configuration, the catalogue of problems, its summary |
-//! | 6 | [`app`] | the program |
-//! | 7 | [`guide`] | the user's guide, which is text alone |
+//! | 6 | [`runs`] | a run as a library: its configuration, the catalogue of problems, its summary |
+//! | 7 | [`app`] | the program |
+//! | 8 | [`guide`] | the user's guide, which is text alone |
 //!
 //! Start with [`archipelago::island::step`], one generation of one island as a list of phases, and
 //! [`archipelago::lockstep`], a whole run in twenty lines.
@@ -42,7 +42,7 @@
 //!   ([`evolution::hurdles`]).
 //! - **What a run claims is not what it selected by**: a champion is tried again on perturbations that nobody was
 //!   selected on, in both engines ([`problems::validation`]).
-//! - **Floors 0 to 3 touch no clock, file or process**, and all transcendental functions on the way to a
+//! - **Floors 0 to 4 touch no clock, file or process**, and all transcendental functions on the way to a
 //!   fitness are libm's.
 //! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`] and the worst fitness.
 //! - **Each heavy dependency has one importer**: rapier3d `simulation`, iceoryx2 `transport`, bincode `store`,

@@ -40,7 +40,7 @@ pub fn survey(count: usize) {
     println!(
         "## Engines\n\n{count} random creatures of profile {}, of 3, 6 and 10 genes (3 to 1 to 1), at most {LINKS_MAX} links, \
          seed {SEED}, task course: rank correlation (Spearman) with rapier at 240 Hz\n",
-        problem.profile,
+        problem.encoding.profile,
     );
     println!("| engine | Hz | pairs | path of the root | of the centre of mass | displacement |");
     println!("|---|---|---|---|---|---|");

@@ -10,8 +10,7 @@ mod outcomes;
 mod rates;
 mod statistics;
 
-use islands::creature::{Creature, Gene, Profile};
-use islands::evolution::Problem;
+use islands::creature::{Course, Creature, Encoding, Gene, Profile};
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
 use islands::simulation::Engine;
@@ -56,7 +55,7 @@ fn creatures(problem: &Locomotion, genes: &[usize], count: usize) -> Vec<(Vec<Ge
     let genome = |index: u32| {
         let genes = genes[index as usize % genes.len()];
         let mut stream = source.stream(0, index, Purpose::Genesis);
-        Locomotion { genes, ..*problem }.random_genome(&mut stream)
+        Course { genes, ..problem.encoding }.random_genome(&mut stream)
     };
     let express = |genome: Vec<Gene>| {
         let creature = problem.express(&genome).ok()?;
@@ -71,5 +70,6 @@ fn problem(profile: Profile) -> Locomotion {
         Profile::Coursework => Task::Course,
     };
     let single = Locomotion::single(Engine::Featherstone);
-    Locomotion { profile, task, links_max: LINKS_MAX, ..single }
+    let encoding = Course { profile, links_max: LINKS_MAX, ..Course::DEFAULT };
+    Locomotion { encoding, task, ..single }
 }

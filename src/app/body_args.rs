@@ -3,7 +3,7 @@
 use super::settings::{OfBody, OfTrial, SettingArgs};
 use super::terrain_args::{self, TerrainArgs};
 use crate::choice;
-use crate::creature::scales::Rescaling;
+use crate::creature::encodings::course::Rescaling;
 use crate::creature::{Profile, Scales};
 use crate::runs::Failure;
 use crate::runs::config::Config;

@@ -33,9 +33,10 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
     let specimen = Specimen::read(&args.genome, &args.trial.changes)?;
     if args.format == Format::Csv {
-        return export_genome(args, &problem.reading(), &specimen);
+        return export_genome(args, &problem.encoding.reading(), &specimen);
     }
-    let creature = specimen.creature(&args.genome, problem.reading(), problem.links_max)?;
+    let creature =
+        specimen.creature(&args.genome, problem.encoding.reading(), problem.encoding.links_max)?;
     let name = name(&args.genome);
     let Creature { morphology, controller } = &creature;
     let out = &args.out;

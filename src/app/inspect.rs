@@ -20,7 +20,7 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     let scales = args.changes.scales();
     let config = args.settings.over(Config { scales, ..Config::default() });
     config.check()?;
-    let (links_max, reading) = (config.max_links, config.locomotion().reading());
+    let (links_max, reading) = (config.max_links, config.locomotion().encoding.reading());
     if let Some(rows) = genomes::network(&args.genome)? {
         show_network(&rows, args);
         return Ok(());

@@ -1,8 +1,7 @@
 //! From genes to a body that can move.
 //!
-//! A genome is a sequence of [`Gene`]s, 17 numbers each ([`PARAMETERS`]). A [`Profile`] says what the numbers
-//! mean and decodes each gene into [`Traits`]. [`expansion`] copies links by their recurrence into a
-//! tree; [`morphology`] gives the tree a body, [`controller`] gives its joints motors. [`express`] does it all:
+//! A [`body`] is links in a tree of joints, a [`brain`] says what its motors do, and an [`encoding`](encodings) is how
+//! both grow from genes. There is one so far, the [`course`](encodings::course)'s:
 //!
 //! ```
 //! use islands::creature::{Gene, Profile, express};
@@ -13,126 +12,20 @@
 //! # Ok::<(), islands::creature::ExpressionError>(())
 //! ```
 //!
-//! Architecture invariant: this knows no physics engine and no evolution. Everything is in f64 and goes through
-//! libm, so that the same genes are the same body on every machine.
+//! Architecture invariant: this knows no physics engine, and bodies and brains know no genes; of evolution encodings
+//! know what varies a genome, and no more. Everything is in f64 and goes through libm, so that the same genes are the
+//! same body on every machine.
 
-pub mod controller;
-pub mod expansion;
-pub mod gene;
-pub mod genome;
-pub mod morphology;
-pub mod profile;
-pub mod scales;
-pub mod shape;
-pub mod traits;
-pub mod waveform;
+pub mod body;
+pub mod brain;
+pub mod encodings;
+pub mod living;
 
-pub use controller::{Controller, Motor};
-pub use expansion::Copy;
-pub use gene::{Gene, PARAMETERS, Parameter};
-pub use morphology::{Inertia, Joint, JointKind, Link, Morphology};
-pub use profile::Profile;
-pub use scales::{Reading, Scales};
-pub use shape::Shape;
-pub use traits::Traits;
-pub use waveform::Waveform;
-
-/// A body and what moves it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Creature {
-    /// The body.
-    pub morphology: Morphology,
-    /// What moves it.
-    pub controller: Controller,
-}
-
-/// How a genome develops: what its genes say, and the links that they become.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Development {
-    /// What each gene says, in the order of the genes.
-    pub traits: Vec<Traits>,
-    /// Which gene became which link, in the order of the links.
-    pub tree: Vec<Copy>,
-    profile: Profile,
-}
-
-impl Development {
-    /// What it leads to.
-    pub fn creature(&self) -> Creature {
-        let Self { traits, tree, profile } = self;
-        let morphology = morphology::build(traits, tree, *profile);
-        let controller = controller::build(traits, tree, &morphology, *profile);
-        Creature { morphology, controller }
-    }
-}
-
-/// Why a genome cannot be expressed.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum ExpressionError {
-    /// There is nothing to express.
-    #[error("the genome has no gene")]
-    Empty,
-    /// The profile does not cut bodies, and this one is too large to be built.
-    #[error("the body has more than {max} links, the most that profile {profile} builds")]
-    TooManyLinks {
-        /// The profile.
-        profile: Profile,
-        /// Its bound.
-        max: usize,
-    },
-}
-
-/// Expresses a genome: develops it and builds what that leads to.
-///
-/// # Errors
-/// As [`develop`].
-pub fn express(
-    genome: &[Gene],
-    reading: impl Into<Reading>,
-    links_max: usize,
-) -> Result<Creature, ExpressionError> {
-    Ok(develop(genome, reading, links_max)?.creature())
-}
-
-/// How many links the body has that [`express`] makes of a genome, found without building it.
-///
-/// # Errors
-/// As [`develop`].
-pub fn count_links(
-    genome: &[Gene],
-    reading: impl Into<Reading>,
-    links_max: usize,
-) -> Result<usize, ExpressionError> {
-    develop(genome, reading, links_max).map(|development| development.tree.len())
-}
-
-/// Develops a genome. A body of more than `links_max` links is cut to the first ones of the expansion's
-/// depth-first order; profile `coursework` never cuts, but refuses what is over [`profile::COURSEWORK_LINKS_MAX`].
-///
-/// # Errors
-/// If there is no gene, or too many links for a profile that does not cut.
-pub fn develop(
-    genome: &[Gene],
-    reading: impl Into<Reading>,
-    links_max: usize,
-) -> Result<Development, ExpressionError> {
-    if genome.is_empty() {
-        return Err(ExpressionError::Empty);
-    }
-    let reading = reading.into();
-    let profile = reading.profile;
-    let traits: Vec<Traits> = genome.iter().map(|gene| reading.decode(gene)).collect();
-    let parents = genome::parents(&traits);
-    let copies: Vec<u32> = traits.iter().map(|t| t.copies).collect();
-    let tree = if profile.is_cut() {
-        expansion::expand(&parents, &copies, links_max.max(1))
-    } else {
-        let max = profile::COURSEWORK_LINKS_MAX;
-        let tree = expansion::expand(&parents, &copies, max + 1);
-        if tree.len() > max {
-            return Err(ExpressionError::TooManyLinks { profile, max });
-        }
-        tree
-    };
-    Ok(Development { traits, tree, profile })
-}
+pub use body::{Inertia, Joint, JointKind, Link, Morphology, Shape};
+pub use brain::{Controller, Motor, Waveform};
+pub use encodings::course::{
+    Copy, Development, Gene, PARAMETERS, Parameter, Profile, Reading, Scales, Traits, count_links,
+    develop, express,
+};
+pub use encodings::{Course, Encoding, ExpressionError};
+pub use living::Creature;

@@ -1,7 +1,7 @@
 //! Genomes said in the course's terms, for its program to read.
 
-use crate::creature::gene::{PARAMETER_COUNT, PARAMETERS};
-use crate::creature::traits::SolidKind;
+use crate::creature::encodings::course::SolidKind;
+use crate::creature::encodings::course::{PARAMETER_COUNT, PARAMETERS};
 use crate::creature::{Gene, Profile, Reading, Traits, Waveform};
 
 /// What a course's program cannot build: the gene, from 1, and why.
@@ -69,7 +69,7 @@ fn foreign(traits: &Traits, reading: &Reading) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::scales::Rescaling;
+    use crate::creature::encodings::course::Rescaling;
     use crate::creature::{Scales, express};
     use expect_test::expect;
 

@@ -8,7 +8,7 @@
 //! Lines are split here rather than by the csv crate, which counts blank lines wrongly and lets a quoted cell
 //! run over lines.
 
-use crate::creature::gene::{Gene, PARAMETER_COUNT, PARAMETERS, VALUE_MAX};
+use crate::creature::encodings::course::{Gene, PARAMETER_COUNT, PARAMETERS, VALUE_MAX};
 use std::fmt;
 use std::io::{self, BufRead, BufReader, Read, Write};
 

@@ -214,6 +214,7 @@ fn motor(motor: &Motor, period_s: f64, profile: Profile) -> MotorInspection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::creature::Course;
     use crate::creature::develop;
     use crate::evolution::Problem;
     use crate::problems::Locomotion;
@@ -221,10 +222,11 @@ mod tests {
     use serde_json::Value;
 
     fn inspected(profile: Profile, index: u32) -> Value {
-        let problem = Locomotion { profile, ..Locomotion::default() };
+        let problem =
+            Locomotion { encoding: Course { profile, ..Course::DEFAULT }, ..Locomotion::default() };
         let mut rng = Source { seed: 3, island: 0 }.stream(0, index, Purpose::Genesis);
         let genome = problem.random_genome(&mut rng);
-        let development = develop(&genome, profile, problem.links_max).unwrap();
+        let development = develop(&genome, profile, problem.encoding.links_max).unwrap();
         serde_json::to_value(Inspection::new(&development, profile, "random")).unwrap()
     }
 

@@ -191,7 +191,7 @@ impl Problem for Benchmark {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::gene::VALUE_MAX;
+    use crate::creature::encodings::course::VALUE_MAX;
     use crate::evolution::Outcome;
 
     fn all(dimensions: usize) -> impl Iterator<Item = Benchmark> {

@@ -2,30 +2,24 @@
 
 use super::robustness::{RobustBy, Robustness};
 use super::tasks::Task;
-use crate::creature::gene::PARAMETER_COUNT;
-use crate::creature::{self, Creature, ExpressionError, Gene, Profile, Reading, Scales, genome};
-use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem};
+use crate::creature::Creature;
+use crate::creature::encodings::{Course, Encoding, ExpressionError};
+use crate::evolution::variation::sequences::Layout;
+use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem, Variation};
 use crate::rng::Stream;
 use crate::simulation::{self, Engine, Terrain, Trajectory, Trial};
-use rand::RngExt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The height of a body from which on bodies count as equally high, in metres.
 pub const HEIGHT_MAX_M: f64 = 3.0;
 
-/// The problem of locomotion.
+/// The problem of locomotion, over any encoding.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Locomotion {
-    /// How genes are read.
-    pub profile: Profile,
-    /// Scales of profile `coursework` that were changed.
-    pub scales: Scales,
+pub struct Locomotion<E = Course> {
+    /// How genes become creatures.
+    pub encoding: E,
     /// What the bodies have to do.
     pub task: Task,
-    /// Genes of a random genome, at least 1.
-    pub genes: usize,
-    /// The most links of a body, for profiles that cut.
-    pub links_max: usize,
     /// What moves the bodies.
     pub engine: Engine,
     /// How often they are tried.
@@ -46,11 +40,8 @@ impl Default for Locomotion {
 impl Locomotion {
     /// What a run solves if nothing else is said.
     pub const DEFAULT: Self = Self {
-        profile: Profile::Native,
-        scales: Scales::NONE,
+        encoding: Course::DEFAULT,
         task: Task::Walk,
-        genes: 4,
-        links_max: 16,
         engine: Engine::Featherstone,
         robustness: Robustness { trials: 8, by: RobustBy::Quartile },
         judged: false,
@@ -61,24 +52,21 @@ impl Locomotion {
     pub const fn single(engine: Engine) -> Self {
         Self { engine, robustness: Robustness::NONE, ..Self::DEFAULT }
     }
+}
 
+impl<E: Encoding> Locomotion<E> {
     /// How bodies are tried.
     pub fn trial(&self) -> Trial {
         let trial = self.task.trial_in(self.engine);
         self.terrain.map_or(trial, |terrain| trial.on(terrain))
     }
 
-    /// How genes are read.
-    pub fn reading(&self) -> Reading {
-        Reading { profile: self.profile, scales: self.scales }
-    }
-
     /// Expresses a genome.
     ///
     /// # Errors
-    /// If it is empty or describes more than the profile builds.
-    pub fn express(&self, genome: &[Gene]) -> Result<Creature, ExpressionError> {
-        creature::express(genome, self.reading(), self.links_max)
+    /// If it is empty or describes more than the encoding builds.
+    pub fn express(&self, genome: &[E::Gene]) -> Result<Creature, ExpressionError> {
+        self.encoding.express(genome)
     }
 
     /// Evaluates a genome and films it; the evaluation is the one that [`Problem::evaluate`] gives. The film is of that
@@ -86,7 +74,7 @@ impl Locomotion {
     ///
     /// # Errors
     /// If the genome cannot be expressed.
-    pub fn film(&self, genome: &[Gene]) -> Result<(Evaluation, Trajectory), ExpressionError> {
+    pub fn film(&self, genome: &[E::Gene]) -> Result<(Evaluation, Trajectory), ExpressionError> {
         Ok(self.film_body(&self.express(genome)?))
     }
 
@@ -116,9 +104,9 @@ impl Locomotion {
     }
 
     /// The body that is scored for a genome.
-    fn grow(&self, genome: &[Gene]) -> Result<Creature, Outcome> {
-        let mut values = genome.iter().flat_map(|gene| gene.0);
-        if !values.all(f64::is_finite) {
+    fn grow(&self, genome: &[E::Gene]) -> Result<Creature, Outcome> {
+        let mut values = genome.iter().flat_map(evolution::Gene::values);
+        if !values.all(|value| value.is_finite()) {
             return Err(Outcome::NotFinite);
         }
         if !genome.iter().all(evolution::Gene::is_valid) {
@@ -128,47 +116,48 @@ impl Locomotion {
     }
 }
 
-impl evolution::Gene for Gene {
-    const WIRE_NAME: &'static str = "islands.creature.gene.v1";
+impl<E: Encoding> Problem for Locomotion<E> {
+    type Gene = E::Gene;
 
-    fn is_valid(&self) -> bool {
-        self.0.iter().all(|value| (0.0..1.0).contains(value))
+    fn random_gene(&self, rng: &mut Stream) -> E::Gene {
+        self.encoding.random_gene(rng)
     }
 
-    fn values(&self) -> &[f64] {
-        &self.0
+    fn random_genome(&self, rng: &mut Stream) -> Vec<E::Gene> {
+        self.encoding.random_genome(rng)
     }
 
-    fn values_mut(&mut self) -> &mut [f64] {
-        &mut self.0
-    }
-}
-
-impl Problem for Locomotion {
-    type Gene = Gene;
-
-    fn random_gene(&self, rng: &mut Stream) -> Gene {
-        Gene(std::array::from_fn(|_| rng.random()))
+    fn layout(&self) -> Layout {
+        self.encoding.layout()
     }
 
-    fn random_genome(&self, rng: &mut Stream) -> Vec<Gene> {
-        (0..self.genes).map(|_| self.random_gene(rng)).collect()
+    fn mutate_gene(&self, gene: &mut E::Gene, variation: &Variation, rng: &mut Stream) {
+        self.encoding.mutate_gene(gene, variation, rng);
     }
 
-    /// Appends a copy of a limb, with all that it carries, to whom the limb is on: a new gene for each of the old ones,
-    /// as they are but for who their parents are.
-    fn duplicate(&self, genome: &mut Vec<Gene>, genes_max: usize, rng: &mut Stream) {
-        if genome.len() > 1 {
-            let limb = rng.random_range(1..genome.len());
-            genome::duplicate(genome, limb, genes_max);
-        }
+    fn duplicate(&self, genome: &mut Vec<E::Gene>, genes_max: usize, rng: &mut Stream) {
+        self.encoding.duplicate(genome, genes_max, rng);
+    }
+
+    fn crossover(
+        &self,
+        a: &[E::Gene],
+        b: &[E::Gene],
+        variation: &Variation,
+        rng: &mut Stream,
+    ) -> Vec<E::Gene> {
+        self.encoding.crossover(a, b, variation, rng)
+    }
+
+    fn mutate(&self, genome: &mut Vec<E::Gene>, variation: &Variation, rng: &mut Stream) {
+        self.encoding.mutate(genome, variation, rng);
     }
 
     /// How many links its body has, of those that it may have, and how high it stands at rest, of [`HEIGHT_MAX_M`].
-    fn features(&self, genome: &[Gene]) -> [f64; 2] {
+    fn features(&self, genome: &[E::Gene]) -> [f64; 2] {
         let expressed = catch_unwind(AssertUnwindSafe(|| self.express(genome)));
         let Some(creature) = expressed.ok().and_then(Result::ok) else { return [0.0; 2] };
-        let links = creature.morphology.links.len() as f64 / self.links_max.max(1) as f64;
+        let links = creature.morphology.links.len() as f64 / self.encoding.links_max() as f64;
         [links.min(1.0), (creature.morphology.height_m() / HEIGHT_MAX_M).min(1.0)]
     }
 
@@ -176,22 +165,15 @@ impl Problem for Locomotion {
         ["links", "height"]
     }
 
-    /// The mean absolute difference of the values of genes in the same place; a gene that only one of them has
-    /// counts as wholly different.
-    fn distance(&self, a: &[Gene], b: &[Gene]) -> f64 {
-        let shared: f64 = a.iter().zip(b).map(|(a, b)| gene_distance(a, b)).sum();
-        let longer = a.len().max(b.len());
-        if longer == 0 {
-            return 0.0;
-        }
-        (shared + a.len().abs_diff(b.len()) as f64) / longer as f64
+    fn distance(&self, a: &[E::Gene], b: &[E::Gene]) -> f64 {
+        self.encoding.distance(a, b)
     }
 
-    fn evaluate(&self, genome: &[Gene]) -> Evaluation {
+    fn evaluate(&self, genome: &[E::Gene]) -> Evaluation {
         self.estimate(genome, &Hurdles::NONE)
     }
 
-    fn estimate(&self, genome: &[Gene], hurdles: &Hurdles) -> Evaluation {
+    fn estimate(&self, genome: &[E::Gene], hurdles: &Hurdles) -> Evaluation {
         let tried = catch_unwind(AssertUnwindSafe(|| {
             self.score(&self.grow(genome)?, &self.trial(), hurdles)
         }));
@@ -202,14 +184,14 @@ impl Problem for Locomotion {
         self.judged || self.robustness.is_wanted()
     }
 
-    fn possible_scores(&self, genome: &[Gene]) -> Vec<Fitness> {
+    fn possible_scores(&self, genome: &[E::Gene]) -> Vec<Fitness> {
         let possible = || self.grow(genome).map(|creature| self.possible(&creature));
         let tried = catch_unwind(AssertUnwindSafe(possible));
         tried.ok().and_then(Result::ok).unwrap_or_else(|| vec![Fitness::WORST])
     }
 
     /// The mean of half of the usual fresh trials, in our own engine, which takes a tenth of rapier's time.
-    fn validate(&self, genome: &[Gene]) -> Option<Fitness> {
+    fn validate(&self, genome: &[E::Gene]) -> Option<Fitness> {
         let Ok(creature) = self.express(genome) else { return Some(Fitness::WORST) };
         let trials = self.fresh_trials() / 2;
         let found = self.validate_body(&creature, Engine::Featherstone, trials);
@@ -217,9 +199,9 @@ impl Problem for Locomotion {
     }
 
     /// Links times steps, of trials that run to their end; what cannot be expressed costs nothing.
-    fn cost(&self, genome: &[Gene]) -> u64 {
+    fn cost(&self, genome: &[E::Gene]) -> u64 {
         // Whatever evaluating a genome contains must not come out here.
-        let links = catch_unwind(|| creature::count_links(genome, self.reading(), self.links_max));
+        let links = catch_unwind(AssertUnwindSafe(|| self.encoding.count_links(genome)));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
         links as u64 * self.steps()
     }
@@ -233,15 +215,11 @@ fn evaluation(result: Result<f64, Outcome>) -> Evaluation {
     result.map_or_else(Evaluation::failed, Evaluation::scored)
 }
 
-fn gene_distance(a: &Gene, b: &Gene) -> f64 {
-    a.0.iter().zip(&b.0).map(|(a, b)| (a - b).abs()).sum::<f64>() / PARAMETER_COUNT as f64
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::gene::VALUE_MAX;
-    use crate::evolution::Variation;
+    use crate::creature::encodings::course::{PARAMETER_COUNT, VALUE_MAX};
+    use crate::creature::{Gene, Profile};
     use crate::rng::{Purpose, Source};
 
     fn problem() -> Locomotion {
@@ -270,7 +248,8 @@ mod tests {
         for index in 0..39 {
             let (profile, task) = (Profile::ALL[index % 3], Task::ALL[index / 3 % 3]);
             let genes = 1 + index / 3;
-            let problem = Locomotion { profile, task, genes, links_max: 7, ..problem() };
+            let encoding = Course { profile, genes, links_max: 7, ..Course::DEFAULT };
+            let problem = Locomotion { encoding, task, ..problem() };
             let genome = problem.random_genome(&mut stream(index as u32));
             let links = problem.express(&genome).map_or(0, |it| it.morphology.links.len());
             let steps = task.trial_in(problem.engine).steps() as usize;
@@ -283,7 +262,8 @@ mod tests {
         let mut gene = Gene([0.5; PARAMETER_COUNT]);
         // Its link is built twice on the one before it.
         (gene.0[3], gene.0[6]) = (0.4, VALUE_MAX);
-        let coursework = Locomotion { profile: Profile::Coursework, ..problem() };
+        let encoding = Course { profile: Profile::Coursework, ..Course::DEFAULT };
+        let coursework = Locomotion { encoding, ..problem() };
         let steps = u64::from(coursework.trial().steps());
         assert_eq!([8, 10].map(|genes| coursework.cost(&vec![gene; genes])), [255 * steps, 0]);
         assert_eq!(problem().cost(&[]), 0);

@@ -4,6 +4,7 @@
 use super::locomotion::Locomotion;
 use super::validation::Validation;
 use crate::creature::Creature;
+use crate::creature::encodings::Encoding;
 use crate::evolution::{Fitness, Hurdles, LOOKS, Outcome};
 use crate::simulation::{self, Engine, Trial};
 use crate::work_queue;
@@ -20,7 +21,7 @@ const CONFIRMED_SHARE: f64 = 0.85;
 /// The first perturbation that nobody is selected on.
 const FRESH: u32 = 1 << 20;
 
-impl Locomotion {
+impl<E: Encoding> Locomotion<E> {
     /// The score of a body, as far as it gets over the hurdles. Who fails in one trial has failed.
     pub(super) fn score(
         &self,
@@ -119,7 +120,7 @@ impl Locomotion {
         score: f64,
         hurdle: Fitness,
     ) -> Result<f64, Outcome> {
-        let other = Self { engine: self.engine.other(), ..*self };
+        let other = Self { engine: self.engine.other(), ..self.clone() };
         let usual = Trial { steps_per_s: other.trial().steps_per_s, ..*usual };
         let trials = match self.robustness.trials {
             0 => vec![usual],
@@ -213,7 +214,7 @@ impl Locomotion {
         first: u32,
         trials: u32,
     ) -> Vec<Result<f64, Outcome>> {
-        let problem = Self { engine, ..*self };
+        let problem = Self { engine, ..self.clone() };
         let usual = problem.trial();
         let trial = |index| self.unpushed(usual.perturbed(first + index));
         let trials: Vec<Trial> = (0..trials).map(trial).collect();

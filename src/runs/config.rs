@@ -17,6 +17,7 @@ pub use written::{Launch, SeedGenomes};
 
 use super::failure::Failure;
 use crate::archipelago::{Algorithm, Archipelago};
+use crate::creature::Course;
 use crate::problems::Locomotion;
 use crate::transport::Domain;
 
@@ -40,7 +41,9 @@ impl Config {
     /// The problem of locomotion that is solved where creatures are evolved.
     pub fn locomotion(&self) -> Locomotion {
         let terrain = self.terrain.as_ref().and_then(|it| it.terrain);
-        Locomotion { scales: self.scales, terrain, ..self.parts().locomotion }
+        let usual = self.parts().locomotion;
+        let encoding = Course { scales: self.scales, ..usual.encoding };
+        Locomotion { encoding, terrain, ..usual }
     }
 
     /// The configuration that is run: without islands, all individuals live on one.

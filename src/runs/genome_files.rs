@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::subject::Subject;
-use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::store::file;
 use std::path::Path;
 

@@ -43,7 +43,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::Gene;
+    use crate::creature::{Course, Gene};
     use crate::evolution::{Id, Problem};
     use crate::problems::{Locomotion, RobustBy, Robustness, Validation};
     use crate::rng::{Purpose, Source};
@@ -63,7 +63,8 @@ mod tests {
 
     #[test]
     fn kept_is_who_is_best_in_both_engines() {
-        let mut problem = Locomotion { genes: 3, ..Locomotion::DEFAULT };
+        let mut problem =
+            Locomotion { encoding: Course { genes: 3, ..Course::DEFAULT }, ..Locomotion::DEFAULT };
         problem.robustness = Robustness { trials: 2, by: RobustBy::Mean };
         let mut champions: Vec<_> = (0..8).map(|index| champion(&problem, index)).collect();
         champions[3].fitness = Fitness::new(9.0);

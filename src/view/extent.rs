@@ -1,6 +1,6 @@
 //! How large a moving body is, and where.
 
-use crate::creature::morphology::Shape;
+use crate::creature::Shape;
 use crate::simulation::trajectory::Pose;
 use libm::hypotf;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};

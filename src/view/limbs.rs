@@ -6,7 +6,7 @@
 use super::extent::{along_z, every};
 use super::take::Take;
 use super::{ViewError, palette};
-use crate::creature::morphology::{JointKind, Shape};
+use crate::creature::{JointKind, Shape};
 use crate::creature::{Link, Motor};
 use crate::simulation::trajectory::Pose;
 use nalgebra::{Isometry3, Quaternion as Rotation, Translation3, UnitQuaternion, Vector3, vector};

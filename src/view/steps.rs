@@ -3,7 +3,7 @@
 use super::extent::every;
 use super::take::Take;
 use super::{ViewError, palette};
-use crate::creature::morphology::Shape;
+use crate::creature::Shape;
 use crate::simulation::trajectory::Pose;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3, vector};
 use rerun::{Cylinders3D, FillMode, RecordingStream};

@@ -2,9 +2,9 @@
 
 use crate::support::assert_same;
 use expect_test::expect;
-use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use islands::creature::profile::COURSEWORK_LINKS_MAX;
-use islands::creature::{ExpressionError, Gene, Profile, develop, express};
+use islands::creature::encodings::course::profile::COURSEWORK_LINKS_MAX;
+use islands::creature::encodings::course::{PARAMETER_COUNT, VALUE_MAX};
+use islands::creature::{Course, ExpressionError, Gene, Profile, develop, express};
 use islands::evolution::Problem;
 use islands::formats::{GenomeCsvError, Inspection, genome_csv};
 use islands::problems::Locomotion;
@@ -41,7 +41,8 @@ fn every_genome_of_the_course_becomes_the_same_links_to_the_last_bit() {
 
 #[test]
 fn writing_a_genome_and_reading_it_gives_the_same_bits() {
-    let problem = Locomotion { genes: 5, ..Locomotion::default() };
+    let problem =
+        Locomotion { encoding: Course { genes: 5, ..Course::DEFAULT }, ..Locomotion::default() };
     let random = (0..200).map(|index| {
         let mut rng = Source { seed: 17, island: 0 }.stream(0, index, Purpose::Genesis);
         problem.random_genome(&mut rng)
@@ -168,8 +169,10 @@ fn a_body_over_512_links_is_refused_by_name() {
         Ok(creature.morphology.links.len())
     };
     assert_eq!(links(9), Ok(COURSEWORK_LINKS_MAX - 1));
-    let refused =
-        ExpressionError::TooManyLinks { profile: Profile::Coursework, max: COURSEWORK_LINKS_MAX };
+    let refused = ExpressionError::TooManyLinks {
+        builder: "profile coursework".into(),
+        max: COURSEWORK_LINKS_MAX,
+    };
     assert_eq!(links(10), Err(refused.clone()));
     expect!["the body has more than 512 links, the most that profile coursework builds"]
         .assert_eq(&refused.to_string());

@@ -5,7 +5,7 @@ use crate::support::{TINY, World};
 use expect_test::expect;
 use islands::archipelago::{Digest, lockstep};
 use islands::creature::Gene;
-use islands::creature::gene::VALUE_MAX;
+use islands::creature::encodings::course::VALUE_MAX;
 use islands::evolution::Founders;
 use islands::formats::genome_csv;
 use islands::runs::config::Config;

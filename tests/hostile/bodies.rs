@@ -6,7 +6,7 @@ use super::pieces::{self, Sum, archipelago};
 use super::wire;
 use islands::archipelago::arrivals::check_record;
 use islands::archipelago::{Arrivals, Births, Champion, Outbox, island};
-use islands::creature::{Gene, Profile, express};
+use islands::creature::{Course, Gene, Profile, express};
 use islands::evolution::{self, Individual};
 use islands::formats::{genome_csv, metrics, urdf};
 use islands::problems::Task;
@@ -169,8 +169,8 @@ pub fn config(data: &[u8]) -> bool {
         let _ = archipelago.migration.immigration(generation);
         let _ = archipelago.migration.emigration(generation);
     }
-    let problem = config.locomotion();
-    assert!((1..=config.max_genes).contains(&problem.genes) && problem.links_max >= 1);
+    let Course { genes, links_max, .. } = config.locomotion().encoding;
+    assert!((1..=config.max_genes).contains(&genes) && links_max >= 1);
     true
 }
 

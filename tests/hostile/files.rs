@@ -2,7 +2,7 @@
 
 use crate::support::{Ending, World, until};
 use expect_test::expect;
-use islands::creature::gene::PARAMETER_COUNT;
+use islands::creature::encodings::course::PARAMETER_COUNT;
 use std::fs::{self, File};
 use std::os::unix::fs::symlink;
 

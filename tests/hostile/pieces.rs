@@ -3,7 +3,7 @@
 
 use islands::archipelago::{Archipelago, Migration, Topology};
 use islands::creature::Gene;
-use islands::creature::gene::PARAMETER_COUNT;
+use islands::creature::encodings::course::PARAMETER_COUNT;
 use islands::evolution::{Evaluation, Problem, Selection, Strategy, Variation};
 use islands::rng::Stream;
 use islands::store::RunDir;

@@ -1,7 +1,7 @@
 //! What travels between islands as bytes, field by field: the headers are not ours to cast.
 
 use islands::creature::Gene;
-use islands::creature::gene::PARAMETER_COUNT;
+use islands::creature::encodings::course::PARAMETER_COUNT;
 use islands::transport::wire::{BatchHeader, IndividualHeader, ReportHeader, WireGene};
 
 /// The outbox that these bytes say: a header, and genes as long as there are more.

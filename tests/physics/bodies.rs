@@ -3,8 +3,8 @@
 use crate::formats::course::{FIXTURES, fixture};
 use crate::support::World;
 use expect_test::expect;
-use islands::creature::profile::COURSEWORK_LINKS_MAX;
-use islands::creature::{Creature, Gene, Profile};
+use islands::creature::encodings::course::profile::COURSEWORK_LINKS_MAX;
+use islands::creature::{Course, Creature, Gene, Profile};
 use islands::evolution::Problem;
 use islands::formats::{genome_csv, urdf};
 use islands::problems::{Locomotion, Task};
@@ -14,7 +14,8 @@ use serde_json::Value;
 use std::fs;
 
 pub fn locomotion(profile: Profile, genes: usize) -> Locomotion {
-    Locomotion { profile, genes, task: Task::Course, ..Locomotion::default() }
+    let encoding = Course { profile, genes, ..Course::DEFAULT };
+    Locomotion { encoding, task: Task::Course, ..Locomotion::default() }
 }
 
 pub fn creature(profile: Profile, genome: &[Gene]) -> Creature {

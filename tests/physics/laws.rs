@@ -3,8 +3,8 @@
 mod hand;
 
 use crate::hostile::memory;
-use islands::creature::gene::PARAMETER_COUNT;
-use islands::creature::{Gene, Profile, Shape, express};
+use islands::creature::encodings::course::PARAMETER_COUNT;
+use islands::creature::{Course, Gene, Profile, Shape, express};
 use islands::evolution::{Evaluation, Outcome, Problem};
 use islands::problems::{Locomotion, Task};
 use islands::rng::{Purpose, Source};
@@ -12,7 +12,8 @@ use islands::simulation::{self, Engine, Trajectory, Trial};
 use std::collections::BTreeMap;
 
 fn problem(profile: Profile, task: Task) -> Locomotion {
-    Locomotion { profile, task, genes: 3, ..Locomotion::single(Engine::Rapier) }
+    let encoding = Course { profile, genes: 3, ..Course::DEFAULT };
+    Locomotion { encoding, task, ..Locomotion::single(Engine::Rapier) }
 }
 
 /// Every profile in every task under every engine.
@@ -28,7 +29,8 @@ fn problems() -> impl Iterator<Item = Locomotion> {
 fn random_genomes(count: u32, genes_max: usize) -> Vec<Vec<Gene>> {
     let genome = |index| {
         let genes = 1 + index as usize % genes_max;
-        let problem = Locomotion { genes, ..problem(Profile::Native, Task::Walk) };
+        let encoding = Course { genes, ..Course::DEFAULT };
+        let problem = Locomotion { encoding, ..problem(Profile::Native, Task::Walk) };
         problem.random_genome(&mut Source { seed: 31, island: 0 }.stream(
             0,
             index,
@@ -149,7 +151,7 @@ fn a_creature_moves_by_the_same_bits_again_on_any_thread_and_among_others() {
 
 #[test]
 fn a_creature_scores_the_same_whether_it_is_filmed_or_not() {
-    for problem in problems().filter(|problem| problem.profile == Profile::Native) {
+    for problem in problems().filter(|problem| problem.encoding.profile == Profile::Native) {
         for genome in random_genomes(4, 3) {
             let (filmed, _) = problem.film(&genome).unwrap();
             let scored = problem.evaluate(&genome);

@@ -3,8 +3,8 @@
 use crate::formats::course::{FIXTURES, fixture};
 use crate::support::{World, assert_same};
 use expect_test::{Expect, expect};
-use islands::creature::gene::{PARAMETER_COUNT, VALUE_MAX};
-use islands::creature::{Gene, Profile, develop};
+use islands::creature::encodings::course::{PARAMETER_COUNT, VALUE_MAX};
+use islands::creature::{Course, Gene, Profile, develop};
 use islands::evolution::Problem;
 use islands::formats::{Inspection, genome_csv};
 use islands::problems::{Locomotion, Task};
@@ -18,11 +18,12 @@ fn refused<const N: usize>(world: &World, wishes: [&str; N], expected: Expect) {
 }
 
 fn random_genome(genes: usize, index: u32) -> Vec<Gene> {
-    let problem = Locomotion { genes, ..LOCOMOTION };
+    let problem = Locomotion { encoding: Course { genes, ..Course::DEFAULT }, ..LOCOMOTION };
     problem.random_genome(&mut Source { seed: 29, island: 0 }.stream(0, index, Purpose::Genesis))
 }
 
-const LOCOMOTION: Locomotion = Locomotion { genes: 1, ..Locomotion::DEFAULT };
+const LOCOMOTION: Locomotion =
+    Locomotion { encoding: Course { genes: 1, ..Course::DEFAULT }, ..Locomotion::DEFAULT };
 
 fn csv(genome: &[Gene]) -> Vec<u8> {
     let mut file = Vec::new();
@@ -222,7 +223,8 @@ fn evaluate_takes_every_task_and_profile() {
         for profile in Profile::ALL {
             let scores = world
                 .json(&format!("evaluate genome.csv --task {task} --profile {profile} --json"));
-            let expected = Locomotion { task, profile, ..LOCOMOTION }.evaluate(&genome);
+            let encoding = Course { profile, ..LOCOMOTION.encoding };
+            let expected = Locomotion { encoding, task, ..LOCOMOTION }.evaluate(&genome);
             assert_eq!(scores["genomes"][0]["fitness"], expected.fitness.saturated());
             assert_eq!(scores["genomes"][0]["outcome"], expected.outcome.to_string());
             assert_eq!(

@@ -3,7 +3,7 @@
 use crate::support::reel::Recording;
 use crate::support::{Ending, TINY, World, await_generation, signal, try_signal, until};
 use islands::archipelago::Champion;
-use islands::creature::Gene;
+use islands::creature::{Course, Gene};
 use islands::evolution::Fitness;
 use islands::formats::metrics;
 use islands::problems::{Locomotion, Robustness, Task};
@@ -13,8 +13,12 @@ use std::collections::BTreeSet;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
-const WALK: Locomotion =
-    Locomotion { genes: 2, robustness: Robustness::NONE, judged: false, ..Locomotion::DEFAULT };
+const WALK: Locomotion = Locomotion {
+    encoding: Course { genes: 2, ..Course::DEFAULT },
+    robustness: Robustness::NONE,
+    judged: false,
+    ..Locomotion::DEFAULT
+};
 
 #[test]
 fn a_recording_shows_each_islands_champion_as_it_was_simulated() {

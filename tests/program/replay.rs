@@ -3,16 +3,20 @@
 use crate::support::reel::Recording;
 use crate::support::{TINY, World};
 use islands::archipelago::Champion;
-use islands::creature::scales::Rescaling;
-use islands::creature::{Gene, Profile};
+use islands::creature::encodings::course::Rescaling;
+use islands::creature::{Course, Gene, Profile};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
 use islands::problems::{Locomotion, Robustness, Task};
 use islands::runs::config::Config;
 use islands::store::{RecordLog, RunDir};
 
-const WALK: Locomotion =
-    Locomotion { genes: 2, robustness: Robustness::NONE, judged: false, ..Locomotion::DEFAULT };
+const WALK: Locomotion = Locomotion {
+    encoding: Course { genes: 2, ..Course::DEFAULT },
+    robustness: Robustness::NONE,
+    judged: false,
+    ..Locomotion::DEFAULT
+};
 
 #[test]
 fn a_replay_shows_the_simulation_that_got_the_score() {
@@ -37,8 +41,11 @@ fn several_creatures_race_in_one_replay() {
     for i in [1, 2] {
         world.write(&course(i), crate::formats::course::fixture(&course(i)));
     }
-    let problem =
-        Locomotion { profile: Profile::Coursework, task: Task::Course, ..Locomotion::DEFAULT };
+    let problem = Locomotion {
+        encoding: Course { profile: Profile::Coursework, ..Course::DEFAULT },
+        task: Task::Course,
+        ..Locomotion::DEFAULT
+    };
     let files = [1, 2].map(course).join(" ");
     let ending =
         world.islands(&format!("replay {files} --profile coursework --task course --out race.rrd"));
@@ -154,8 +161,7 @@ fn genomes_in_any_state_and_bodies_race() {
 
     let scales = ["link-length=1".parse::<Rescaling>().unwrap()].into_iter().collect();
     let problem = Locomotion {
-        profile: Profile::Coursework,
-        scales,
+        encoding: Course { profile: Profile::Coursework, scales, ..Course::DEFAULT },
         task: Task::Course,
         ..Locomotion::DEFAULT
     };

@@ -3,7 +3,7 @@
 use crate::support::World;
 use islands::archipelago::Champion;
 use islands::creature::{
-    Controller, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Controller, Course, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
 use islands::evolution::{Evaluation, Fitness, Hurdles, Outcome, Problem};
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
@@ -16,7 +16,8 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 const TINY: &str = "--population 4 --generations 3 --genes 2 --migration-interval 1";
 
 fn genome(genes: usize, index: u32) -> Vec<Gene> {
-    let problem = Locomotion { genes, ..Locomotion::DEFAULT };
+    let problem =
+        Locomotion { encoding: Course { genes, ..Course::DEFAULT }, ..Locomotion::DEFAULT };
     problem.random_genome(&mut Source { seed: 83, island: 0 }.stream(0, index, Purpose::Genesis))
 }
 

@@ -45,7 +45,7 @@ mod tests {
     use super::*;
     use crate::archipelago::island;
     use crate::creature::Gene;
-    use crate::creature::gene::PARAMETER_COUNT;
+    use crate::creature::encodings::course::PARAMETER_COUNT;
     use crate::evolution::Founders;
     use crate::formats::genome_csv;
     use crate::runs::config::Config;

@@ -4,6 +4,7 @@ use super::film::{Studio, recorder};
 use crate::app::cli::ReplayArgs;
 use crate::app::console::print;
 use crate::app::genomes::Specimen;
+use crate::creature::Course;
 use crate::evolution::{Fitness, Problem};
 use crate::problems::Locomotion;
 use crate::runs::Failure;
@@ -23,8 +24,8 @@ pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
     let specimens: Vec<_> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
     let mut shots = Vec::new();
     for (specimen, path) in specimens.iter().zip(paths) {
-        let Locomotion { links_max, .. } = studio.problem;
-        let creature = specimen.creature(path, studio.problem.reading(), links_max)?;
+        let encoding = studio.problem.encoding;
+        let creature = specimen.creature(path, encoding.reading(), encoding.links_max)?;
         shots.push(studio.shoot(creature));
     }
     let lanes = (0..).zip(paths).map(|(hue, path)| Lane { title: name(path), hue });
@@ -76,7 +77,7 @@ fn description(
         .iter()
         .zip(scores)
         .map(|(path, score)| format!("| {} | {} |\n", path.display(), studio.problem.short(score)));
-    let Locomotion { task, profile, .. } = studio.problem;
+    let Locomotion { task, encoding: Course { profile, .. }, .. } = studio.problem;
     format!(
         "# A replay\n\nTask **{task}**, profile **{profile}**, {} s\n\n| creature | score |\n|---|---|\n{}",
         studio.trial.scored_s,

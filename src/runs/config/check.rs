@@ -5,7 +5,7 @@ use super::limits::{GENES_MAX, GENES_OF_ISLAND_MAX, SEED_MAX};
 use super::list::{Config, SETTINGS};
 use crate::archipelago::Algorithm;
 use crate::archipelago::migration::MIGRANTS_MAX;
-use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::evolution::cma;
 use crate::problems::{Function, Pattern};
 use crate::runs::failure::Failure;

@@ -47,7 +47,7 @@ settings! {
     /// Task of creatures
     task: Task => locomotion.task, of(Creatures).tries_bodies().one_of(Task::list);
     /// How genes are read: native, lecture or coursework
-    profile: Profile => locomotion.profile, of(Creatures).tries_bodies();
+    profile: Profile => locomotion.encoding.profile, of(Creatures).tries_bodies();
     /// Physics engine: featherstone (our own, ten times as fast) or rapier
     engine: Engine => locomotion.engine, of(Creatures).tries_bodies();
     /// Perturbed trials of each genome, and four times as many of one that would be the best: friction, motor strength,
@@ -59,11 +59,11 @@ settings! {
     /// The other engine judges would-be champions and emigrants: where it finds less than 0.85 of a score, its own counts
     judged: bool => locomotion.judged, of(Creatures).tries_bodies();
     /// Largest number of links of a body; profile coursework has its own
-    max_links: usize => locomotion.links_max,
+    max_links: usize => locomotion.encoding.links_max,
         of(Creatures).value("L").tries_bodies(), in |_| 1.0..=LINKS_MAX as f64;
 
     /// Genes of a random genome
-    genes: usize => locomotion.genes,
+    genes: usize => locomotion.encoding.genes,
         of(GeneticAlgorithm).value("G").for_problem(Kind::has_genes), in |it| 1.0..=it.max_genes as f64;
     /// Largest number of genes of a genome
     max_genes: usize => archipelago.strategy.variation.genes_max,

@@ -20,7 +20,7 @@ impl Subject for Locomotion {
     const HAS_BODIES: bool = true;
 
     fn title(&self) -> String {
-        format!("Task **{}**, profile **{}**", self.task, self.profile)
+        format!("Task **{}**, profile **{}**", self.task, self.encoding.profile)
     }
 
     fn read_genome(&self, bytes: &[u8], dropped: &[usize]) -> Result<Vec<Gene>, String> {

@@ -5,7 +5,7 @@ use super::super::{Engine, simulate};
 use super::SPACE;
 use super::bodies::limbs;
 use super::lab::Lab;
-use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::creature::{Gene, Profile, express};
 use nalgebra::Vector3;
 

@@ -4,7 +4,7 @@ mod motion;
 mod widths;
 
 use super::*;
-use crate::creature::gene::PARAMETER_COUNT;
+use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::creature::{Gene, Profile, express};
 use crate::evolution::Outcome;
 use crate::simulation::perturbation::Perturbation;

@@ -1,6 +1,7 @@
 //! How genes are read where people changed the scales of the course's parameters.
 
-use super::gene::{PARAMETER_COUNT, PARAMETERS, Use};
+use super::gene::{Gene, PARAMETER_COUNT};
+use super::parameters::{PARAMETERS, Use};
 use super::profile::Profile;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -28,6 +29,12 @@ impl Reading {
             None => used,
             Some(scale) => Use { to: used.from + scale, ..used },
         }
+    }
+
+    /// What the value of parameter `i` of a gene means: a number of its range.
+    pub fn value(&self, gene: &Gene, i: usize) -> f64 {
+        let Use { from, to, .. } = self.used(i);
+        from + gene.0[i] * (to - from)
     }
 }
 
@@ -160,13 +167,21 @@ impl TryFrom<BTreeMap<String, f64>> for Scales {
 
 #[cfg(test)]
 mod tests {
+    use super::super::gene::VALUE_MAX;
+    use super::super::{Traits, express};
     use super::*;
-    use crate::creature::gene::VALUE_MAX;
-    use crate::creature::{Gene, Traits, express};
 
     fn reading(changes: &[&str]) -> Reading {
         let scales = changes.iter().map(|change| change.parse::<Rescaling>().unwrap()).collect();
         Reading { profile: Profile::Coursework, scales }
+    }
+
+    #[test]
+    fn the_scales_of_the_course_are_exact() {
+        let gene = Gene([0.3; PARAMETER_COUNT]);
+        let own = Reading::from(Profile::Coursework);
+        assert_eq!(own.value(&gene, 1), 0.3 * 2.0);
+        assert_eq!(own.value(&gene, 9), 0.3 * std::f64::consts::TAU);
     }
 
     #[test]

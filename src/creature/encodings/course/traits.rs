@@ -3,7 +3,7 @@
 use super::gene::Gene;
 use super::profile::Profile;
 use super::scales::Reading;
-use super::waveform::Waveform;
+use crate::creature::brain::Waveform;
 use nalgebra::{Vector3, vector};
 use std::f64::consts::PI;
 
@@ -58,7 +58,7 @@ impl Traits {
 impl Reading {
     /// Decodes a gene.
     pub fn decode(&self, gene: &Gene) -> Traits {
-        let value = |i| gene.value(i, *self);
+        let value = |i| self.value(gene, i);
         let profile = self.profile;
         Traits {
             solid: profile.solid(value(0)),
@@ -124,8 +124,9 @@ fn axis(value: f64) -> Vector3<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::gene::{PARAMETER_COUNT, VALUE_MAX};
+    use super::super::parameters::PARAMETERS;
     use super::*;
-    use crate::creature::gene::{PARAMETER_COUNT, PARAMETERS, VALUE_MAX};
 
     #[test]
     fn the_ends_of_every_range_decode_to_something_within_it() {

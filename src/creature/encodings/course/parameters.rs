@@ -1,29 +1,8 @@
-//! The gene: 17 numbers from 0 (included) to 1 (excluded), and the table that says what each is for.
+//! The gene table: what each of the 17 numbers is for.
 
+use super::gene::PARAMETER_COUNT;
 use super::profile::Profile;
-use super::scales::Reading;
-use bytemuck::{Pod, Zeroable};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
-
-/// Numbers in a gene.
-pub const PARAMETER_COUNT: usize = 17;
-
-/// The largest value of a parameter: the largest number below 1.
-pub const VALUE_MAX: f64 = 1.0 - f64::EPSILON / 2.0;
-
-/// One gene: a link, the joint that holds it to its parent, and the motor in that joint.
-#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
-#[repr(transparent)]
-pub struct Gene(pub [f64; PARAMETER_COUNT]);
-
-impl Gene {
-    /// What the value of parameter `i` of [`PARAMETERS`] means in a profile: a number of its range.
-    pub fn value(&self, i: usize, reading: impl Into<Reading>) -> f64 {
-        let Use { from, to, .. } = reading.into().used(i);
-        from + self.0[i] * (to - from)
-    }
-}
 
 /// What a parameter is for in one profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -244,15 +223,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ranges_ascend_and_the_coursework_scales_are_exact() {
+    fn ranges_ascend() {
         for parameter in PARAMETERS {
             for profile in Profile::ALL {
                 let Use { from, to, .. } = parameter.used(profile);
                 assert!(from <= to, "{} in {profile}", parameter.name);
             }
         }
-        let gene = Gene([0.3; PARAMETER_COUNT]);
-        assert_eq!(gene.value(1, Profile::Coursework), 0.3 * 2.0);
-        assert_eq!(gene.value(9, Profile::Coursework), 0.3 * TAU);
     }
 }

@@ -1,0 +1,97 @@
+//! What an encoding is.
+
+use crate::creature::living::Creature;
+use crate::evolution::variation::sequences::{self, Layout};
+use crate::evolution::variation::{self, happens};
+use crate::evolution::{Gene, Variation};
+use crate::rng::Stream;
+
+/// How genes are drawn, how they vary, and how they develop into a body and a brain. How they are read and written
+/// follows from what they are made of: [`Gene::values`] is what a file holds a line of, and [`Encoding::columns`] says
+/// what each of them is.
+pub trait Encoding: Clone + std::fmt::Debug + PartialEq + Send + Sync {
+    /// What genomes are sequences of.
+    type Gene: Gene;
+
+    /// What each value of a gene is called.
+    fn columns(&self) -> Vec<&'static str>;
+
+    /// Draws a gene.
+    fn random_gene(&self, rng: &mut Stream) -> Self::Gene;
+
+    /// Draws a genome.
+    fn random_genome(&self, rng: &mut Stream) -> Vec<Self::Gene>;
+
+    /// Whether each place of a genome has its meaning.
+    fn layout(&self) -> Layout {
+        Layout::Free
+    }
+
+    /// Changes a gene by point mutation: each of its values as `variation` says.
+    fn mutate_gene(&self, gene: &mut Self::Gene, variation: &Variation, rng: &mut Stream) {
+        variation::values::mutate(gene.values_mut(), variation, rng);
+    }
+
+    /// Recombines two genomes.
+    fn crossover(
+        &self,
+        a: &[Self::Gene],
+        b: &[Self::Gene],
+        variation: &Variation,
+        rng: &mut Stream,
+    ) -> Vec<Self::Gene> {
+        variation::recombine(a, b, self.layout(), variation, rng)
+    }
+
+    /// Mutates a genome as `variation` says: its values and, where it may be of any length, its genes.
+    fn mutate(&self, genome: &mut Vec<Self::Gene>, variation: &Variation, rng: &mut Stream) {
+        genome.iter_mut().for_each(|gene| self.mutate_gene(gene, variation, rng));
+        if self.layout() == Layout::Fixed {
+            return;
+        }
+        let Variation { shrink_rate, grow_rate, duplicate_rate, genes_max, .. } = *variation;
+        sequences::shrink(genome, shrink_rate, rng);
+        sequences::grow(genome, grow_rate, genes_max, rng, |rng| self.random_gene(rng));
+        if happens(duplicate_rate, rng) {
+            self.duplicate(genome, genes_max, rng);
+        }
+    }
+
+    /// Repeats a part of a genome within it, if it can and that leaves at most `genes_max` genes: by default it
+    /// cannot.
+    fn duplicate(&self, _genome: &mut Vec<Self::Gene>, _genes_max: usize, _rng: &mut Stream) {}
+
+    /// How different two genomes are, from 0 (equal) to 1 (nothing in common).
+    fn distance(&self, a: &[Self::Gene], b: &[Self::Gene]) -> f64;
+
+    /// Grows the body and the brain of a genome whose genes are all valid.
+    ///
+    /// # Errors
+    /// If the genome describes none that the encoding builds.
+    fn express(&self, genome: &[Self::Gene]) -> Result<Creature, ExpressionError>;
+
+    /// How many links the body has that [`Encoding::express`] makes of a genome, found without building it.
+    ///
+    /// # Errors
+    /// As [`Encoding::express`].
+    fn count_links(&self, genome: &[Self::Gene]) -> Result<usize, ExpressionError>;
+
+    /// The most links of a body that is not refused, at least 1: what maps and bounds are made for.
+    fn links_max(&self) -> usize;
+}
+
+/// Why a genome cannot be expressed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ExpressionError {
+    /// There is nothing to express.
+    #[error("the genome has no gene")]
+    Empty,
+    /// The encoding does not cut this body, which is too large to be built.
+    #[error("the body has more than {max} links, the most that {builder} builds")]
+    TooManyLinks {
+        /// Who builds no more, such as `profile coursework`.
+        builder: String,
+        /// Its bound.
+        max: usize,
+    },
+}
