@@ -8,9 +8,10 @@ use super::attempt::Attempt;
 use super::engine::Engine;
 use super::featherstone::{FeatherstoneWorld, Footing, Plane, Relief};
 use super::lanes::width::{Alone, Avx2, Avx512, Width, avx2, avx512};
+use super::measurement::Measurement;
+use super::run::simulate;
 use super::terrain::Ground;
 use super::trial::Trial;
-use super::{Measurement, simulate};
 use crate::creature::Creature;
 use crate::evolution::Outcome;
 use std::sync::OnceLock;
@@ -134,13 +135,14 @@ impl<'a, G: Footing<W>, W: Width> Batch<'a, G, W> {
         let assembly = Assembly::new(self.creature, trial);
         self.worlds.put(lane, &assembly, trial);
         let world = self.worlds.lane(lane);
-        let attempt = Attempt::new(&world, assembly, self.creature, trial, &mut ());
+        let attempt = Attempt::new(&world, assembly, &[self.creature], trial, &mut ());
         self.attempts[lane] = Some((self.next, attempt));
         self.next += 1;
     }
 
     fn run(mut self) -> Vec<Result<Measurement, Outcome>> {
         while self.attempts.iter().any(Option::is_some) {
+            self.prepare();
             self.worlds.step_all();
             (0..W::LANES).for_each(|lane| self.go_on(lane));
         }
@@ -148,12 +150,20 @@ impl<'a, G: Footing<W>, W: Width> Batch<'a, G, W> {
         results.map(|result| result.expect("every trial came to its end")).collect()
     }
 
+    fn prepare(&mut self) {
+        for (lane, attempt) in self.attempts.iter().enumerate() {
+            if let Some((_, attempt)) = attempt {
+                attempt.prepare(&mut self.worlds.lane(lane));
+            }
+        }
+    }
+
     fn go_on(&mut self, lane: usize) {
         let Some((index, attempt)) = &mut self.attempts[lane] else { return };
         let mut world = self.worlds.lane(lane);
         let stepped = world.check();
         if let Some(result) = attempt.go_on(stepped, &mut world, &mut ()) {
-            self.results[*index] = Some(result);
+            self.results[*index] = Some(result.map(Measurement::only));
             self.attempts[lane] = None;
             self.begin(lane);
         }

@@ -1,21 +1,52 @@
-//! A creature as physics sees it: rigid parts in a tree of hinges.
+//! Creatures as physics sees them: rigid parts in trees of hinges.
 //!
 //! Links that fixed joints hold together are one part: there is nothing to solve between them.
 
 use super::perturbation::Perturbation;
+use super::start::{LEAN_RAD, Start};
 use super::terrain::Ground;
-use super::trial::{LEAN_RAD, Start, Trial};
+use super::trial::Trial;
 use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Morphology, Shape};
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::f64::consts::PI;
+use std::ops::Range;
 
-/// A body put together, at the place where its trial begins.
+/// A body put together, or several, at the places where their trial begins.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {
-    /// The rigid parts, the root first and every parent before its children.
+    /// The rigid parts, body by body, of each the root first and every parent before its children.
     pub parts: Vec<Part>,
-    /// Where each link is.
+    /// Where each link is, body by body.
     pub places: Vec<Place>,
+    /// Which of them are whose.
+    pub bodies: Vec<Member>,
+}
+
+/// One of the bodies of an assembly.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Member {
+    /// Its parts.
+    pub parts: Range<usize>,
+    /// Its links.
+    pub links: Range<usize>,
+}
+
+/// A creature that takes part in a trial, or a box that lies about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Entrant<'a> {
+    /// Who.
+    pub creature: &'a Creature,
+    /// How far from the trial's start it begins, in metres.
+    pub offset_m: Vector3<f64>,
+    /// By what it is turned about the vertical, in radians.
+    pub yaw_rad: f64,
+}
+
+impl<'a> Entrant<'a> {
+    /// One that begins at the trial's start.
+    pub fn alone(creature: &'a Creature) -> Self {
+        Self { creature, offset_m: Vector3::zeros(), yaw_rad: 0.0 }
+    }
 }
 
 /// A rigid part.
@@ -73,8 +104,45 @@ pub struct Place {
 impl Assembly {
     /// Puts a creature together for a trial.
     pub fn new(creature: &Creature, trial: &Trial) -> Self {
+        Self::of(&Entrant::alone(creature), trial)
+    }
+
+    /// Puts creatures together that are in one trial.
+    pub fn together(entrants: &[Entrant], trial: &Trial) -> Self {
+        let mut all = Self { parts: Vec::new(), places: Vec::new(), bodies: Vec::new() };
+        for entrant in entrants {
+            let (parts, links) = (all.parts.len(), all.places.len());
+            let body = Self::of(entrant, trial).counted_from(parts as isize);
+            all.parts.extend(body.parts);
+            all.places.extend(body.places);
+            all.bodies
+                .push(Member { parts: parts..all.parts.len(), links: links..all.places.len() });
+        }
+        all
+    }
+
+    /// One of the bodies by itself.
+    pub fn alone(&self, body: &Member) -> Self {
+        let (parts, places) = (&self.parts[body.parts.clone()], &self.places[body.links.clone()]);
+        let bodies = vec![Member { parts: 0..parts.len(), links: 0..places.len() }];
+        let alone = Self { parts: parts.to_vec(), places: places.to_vec(), bodies };
+        alone.counted_from(-(body.parts.start as isize))
+    }
+
+    /// The same where parts have numbers so much higher.
+    fn counted_from(mut self, first: isize) -> Self {
+        let shift = |part: &mut usize| *part = part.wrapping_add_signed(first);
+        let hinges = self.parts.iter_mut().filter_map(|part| part.hinge.as_mut());
+        hinges.for_each(|hinge| shift(&mut hinge.parent));
+        self.places.iter_mut().for_each(|place| shift(&mut place.part));
+        self
+    }
+
+    fn of(entrant: &Entrant, trial: &Trial) -> Self {
+        let creature = entrant.creature;
         let mut morphology = creature.morphology.clone();
         let Perturbation { torque, yaw_rad, .. } = trial.perturbation;
+        let yaw_rad = yaw_rad + entrant.yaw_rad;
         if yaw_rad != 0.0 {
             let yaw = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw_rad);
             morphology.root_rotation = yaw * morphology.root_rotation;
@@ -82,7 +150,7 @@ impl Assembly {
         if let Start::LeaningAt(_) = trial.start {
             morphology.root_rotation = lean() * morphology.root_rotation;
         }
-        let mut assembly = Self { parts: Vec::new(), places: Vec::new() };
+        let mut assembly = Self { parts: Vec::new(), places: Vec::new(), bodies: Vec::new() };
         for (index, (link, rest)) in
             morphology.links.iter().zip(morphology.rest_poses()).enumerate()
         {
@@ -93,10 +161,12 @@ impl Assembly {
             part.weigh();
         }
         assembly.centre_root();
-        let start = Translation3::from(root_start_m(&morphology, trial));
+        let start = Translation3::from(root_start_m(&morphology, trial, entrant.offset_m));
         for part in &mut assembly.parts {
             part.world_from_part = start * part.world_from_part;
         }
+        let (parts, links) = (0..assembly.parts.len(), 0..assembly.places.len());
+        assembly.bodies.push(Member { parts, links });
         assembly
     }
 
@@ -161,15 +231,17 @@ impl Assembly {
 }
 
 /// Where the root begins, in metres.
-fn root_start_m(morphology: &Morphology, trial: &Trial) -> Vector3<f64> {
+fn root_start_m(morphology: &Morphology, trial: &Trial, offset_m: Vector3<f64>) -> Vector3<f64> {
     let height_m = match (trial.ground, trial.start) {
-        (Ground::Terrain(terrain), start) => return terrain.root_start_m(morphology, start),
+        (Ground::Terrain(terrain), start) => {
+            return terrain.root_start_m(morphology, start, offset_m);
+        }
         (Ground::Plane, Start::RootAt(height_m)) => height_m,
         (Ground::Plane, Start::LowestAt(height_m) | Start::LeaningAt(height_m)) => {
             height_m - morphology.lowest_m()
         }
     };
-    Vector3::z() * height_m
+    Vector3::z() * height_m + offset_m
 }
 
 /// A lean that is neither along a body's axes nor halfway between them.

@@ -1,9 +1,9 @@
 //! Guards against what no body does: a solver that blows up must not pass for an athlete.
 
-use super::assembly::Assembly;
+use super::assembly::{Assembly, Member};
 use super::terrain::Ground;
 use super::trial::{Guards, Trial};
-use super::world::World;
+use super::world::{self, World};
 use crate::creature::Creature;
 use crate::evolution::Outcome;
 use nalgebra::{Vector2, Vector3};
@@ -24,10 +24,11 @@ pub struct Guard {
 
 impl Guard {
     /// The bounds of a body that was just put together.
-    pub fn new(assembly: &Assembly, creature: &Creature, trial: &Trial) -> Self {
+    pub fn new(assembly: &Assembly, body: &Member, creature: &Creature, trial: &Trial) -> Self {
         let Trial { ground, guards, .. } = *trial;
         let extent_m = creature.morphology.extent_m();
-        let positions_m = assembly.parts.iter().map(|part| part.world_from_part.translation.vector);
+        let parts = assembly.parts[body.parts.clone()].iter();
+        let positions_m = parts.map(|part| part.world_from_part.translation.vector);
         // Over the ground below: over a cliff beside it, it may be far below zero, and higher as soon as it walks off.
         let heights = positions_m.map(|at_m| at_m.z - ground.height_m(at_m.x, at_m.y));
         let start_m = heights.fold(f64::NEG_INFINITY, f64::max);
@@ -50,19 +51,32 @@ impl Guard {
     /// # Errors
     /// If the body has left its terrain, over its walls or through its ground. The momentum of what has fallen through
     /// a mesh, and of what hangs on the far side of a wall, is nobody's merit.
-    pub fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Outcome> {
+    fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Outcome> {
         let Ground::Terrain(terrain) = self.ground else { return Ok(()) };
         let depth_m = terrain.height_m(centre_m.x, centre_m.y) - centre_m.z;
         let is_there = terrain.holds(centre_m.x, centre_m.y) && depth_m < self.extent_m;
         if is_there { Ok(()) } else { Err(Outcome::Launched) }
     }
 
-    /// Looks at every part.
+    /// Looks at every part of a body, and where on a terrain it is.
     ///
     /// # Errors
     /// The first thing that is wrong.
-    pub fn check(&self, world: &impl World, parts: usize) -> Result<(), Outcome> {
-        for part in 0..parts {
+    pub fn check(
+        &self,
+        world: &impl World,
+        assembly: &Assembly,
+        body: &Member,
+    ) -> Result<(), Outcome> {
+        self.check_parts(world, body)?;
+        match self.ground {
+            Ground::Plane => Ok(()),
+            Ground::Terrain(_) => self.check_place(&world::centre_of_mass(world, assembly, body)),
+        }
+    }
+
+    fn check_parts(&self, world: &impl World, body: &Member) -> Result<(), Outcome> {
+        for part in body.parts.clone() {
             let position_m = world.position_m(part);
             let speed_m_s = world.velocity_m_s(part).norm();
             if !(position_m.sum().is_finite() && speed_m_s.is_finite()) {
@@ -157,8 +171,9 @@ impl Ledger {
 
 #[cfg(test)]
 mod tests {
+    use super::super::medium::Medium;
     use super::super::perturbation::Perturbation;
-    use super::super::trial::Start;
+    use super::super::start::Start;
     use super::*;
 
     fn trial() -> Trial {
@@ -167,6 +182,7 @@ mod tests {
             perturbation: Perturbation::NONE,
             gravity_m_s2: 9.81,
             ground: Ground::Plane,
+            medium: Medium::Void,
             start: Start::LowestAt(0.0),
             settle_s: 0.0,
             scored_s: 2.0,

@@ -18,8 +18,10 @@ pub struct Pose {
 /// A filmed simulation: `poses[frame][link]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    /// The solid of each link.
+    /// The solid of each link, body by body.
     pub shapes: Vec<Shape>,
+    /// How many links each body has.
+    pub bodies: Vec<usize>,
     /// The simulated time of each frame in seconds, ascending from 0.
     pub times_s: Vec<f64>,
     /// The pose of each link in each frame.
@@ -31,10 +33,18 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// A film without a frame.
-    pub fn new(creature: &Creature, scoring_from_s: f64, ground: Ground) -> Self {
-        let shapes = creature.morphology.links.iter().map(|link| link.shape).collect();
-        Self { shapes, times_s: Vec::new(), poses: Vec::new(), scoring_from_s, ground }
+    /// A film of some bodies, without a frame.
+    pub fn new<'a>(
+        creatures: impl Iterator<Item = &'a Creature>,
+        scoring_from_s: f64,
+        ground: Ground,
+    ) -> Self {
+        let (mut shapes, mut bodies) = (Vec::new(), Vec::new());
+        for links in creatures.map(|creature| &creature.morphology.links) {
+            bodies.push(links.len());
+            shapes.extend(links.iter().map(|link| link.shape));
+        }
+        Self { shapes, bodies, times_s: Vec::new(), poses: Vec::new(), scoring_from_s, ground }
     }
 
     /// Forgets every frame.

@@ -1,9 +1,10 @@
 //! How a body is tried, and the constants of the world that it is tried in.
 
-use super::TRACK_SAMPLE_S;
+use super::measurement::TRACK_SAMPLE_S;
+use super::medium::Medium;
 use super::perturbation::Perturbation;
+use super::start::Start;
 use super::terrain::{Ground, Terrain};
-use std::f64::consts::TAU;
 
 /// How a body is tried.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +17,8 @@ pub struct Trial {
     pub gravity_m_s2: f64,
     /// What the body stands on.
     pub ground: Ground,
+    /// What is around it.
+    pub medium: Medium,
     /// Where the body begins.
     pub start: Start,
     /// A round of settling before scoring, in seconds; motors hold still meanwhile. There are as many rounds as it
@@ -46,21 +49,6 @@ impl Guards {
 
 /// No healthy link is ever this fast, in m/s: the 99th percentile of random bodies is 6 to 7.
 const SPEED_M_S_MAX: f64 = 50.0;
-
-/// Where a body begins.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Start {
-    /// With its root this high, in metres.
-    RootAt(f64),
-    /// With its lowest point this high, in metres.
-    LowestAt(f64),
-    /// With its lowest point this high, in metres, and all of it leaning by [`LEAN_RAD`].
-    LeaningAt(f64),
-}
-
-/// How far a body leans that begins so, in radians: 5°. What stands on feet rights itself; what was only balanced
-/// (a tower on its point, a wheel with its weight on top) comes down while it settles, not while it is scored.
-pub const LEAN_RAD: f64 = TAU / 72.0;
 
 /// Friction of a plane and of every link; their product acts between them. From the course.
 pub const FRICTION: f64 = 0.5;

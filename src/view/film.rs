@@ -155,7 +155,7 @@ impl Film {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::{Controller, Morphology};
+    use crate::creature::{Brain, Controller, Morphology};
     use crate::simulation::Ground;
     use crate::simulation::trajectory::Trajectory;
     use nalgebra::UnitQuaternion;
@@ -222,6 +222,7 @@ mod tests {
 
     fn clip(lane: u32, generation: u32) -> Clip {
         let trajectory = Trajectory {
+            bodies: vec![],
             shapes: vec![],
             times_s: vec![],
             poses: vec![],
@@ -235,7 +236,7 @@ mod tests {
             label: String::new(),
             short_label: String::new(),
             morphology: Morphology { links: vec![], root_rotation: UnitQuaternion::identity() },
-            controller: Controller { period_s: 0.1, motors: vec![] },
+            controller: Controller { period_s: 0.1, motors: vec![], brain: Brain::Waves },
             trajectory,
         }
     }

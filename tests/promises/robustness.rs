@@ -3,7 +3,8 @@
 use crate::support::World;
 use islands::archipelago::Champion;
 use islands::creature::{
-    Controller, Course, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Brain, Controller, Course, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape,
+    Waveform,
 };
 use islands::evolution::{Evaluation, Fitness, Hurdles, Outcome, Problem};
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
@@ -84,7 +85,11 @@ fn sling() -> Creature {
         vec![cuboid([1.0, 1.0, 0.5], 1e5, None), cuboid([0.1, 0.1, 0.05], 1.0, Some(joint))];
     Creature {
         morphology: Morphology { links, root_rotation: UnitQuaternion::identity() },
-        controller: Controller { period_s: 0.1, motors: vec![None, Some(motor)] },
+        controller: Controller {
+            period_s: 0.1,
+            motors: vec![None, Some(motor)],
+            brain: Brain::Waves,
+        },
     }
 }
 
@@ -231,7 +236,7 @@ fn ball() -> Creature {
         Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
     Creature {
         morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
-        controller: Controller { period_s: 0.1, motors: vec![None] },
+        controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::error::{UrdfError, shortened};
 use super::read::{ExactPose, Robot, Wave};
-use crate::creature::{Controller, Joint, Morphology, Motor};
+use crate::creature::{Brain, Controller, Joint, Morphology, Motor};
 use nalgebra::{Isometry3, UnitQuaternion};
 use std::collections::BTreeMap;
 
@@ -17,7 +17,8 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// If a motor drives no joint.
 pub fn controller(robot: &Robot, joints: &[Option<usize>]) -> Result<Controller, UrdfError> {
-    let mut controller = Controller { period_s: PERIOD_S, motors: vec![None; joints.len()] };
+    let mut controller =
+        Controller { period_s: PERIOD_S, motors: vec![None; joints.len()], brain: Brain::Waves };
     let Some(extension) = &robot.extension else { return Ok(controller) };
     controller.period_s = extension.period_s;
     let links = links(robot, joints);

@@ -2,7 +2,7 @@
 
 use super::Definition;
 use crate::problems::progress;
-use crate::simulation::{Ground, Guards, Perturbation, Start, Trial};
+use crate::simulation::{Ground, Guards, Medium, Perturbation, Start, Trial};
 
 pub const DEFINITION: Definition = Definition {
     aim: "get away",
@@ -22,6 +22,7 @@ pub fn trial() -> Trial {
         perturbation: Perturbation::NONE,
         gravity_m_s2: 9.81,
         ground: Ground::Plane,
+        medium: Medium::Void,
         // Low, since a body that falls far bounces, and one that lands on a light root flies off.
         start: Start::LeaningAt(0.1),
         settle_s: 0.5,

@@ -77,6 +77,7 @@ impl Subject for Locomotion {
     #[cfg(feature = "view")]
     fn shoot(&self, genome: &[Gene]) -> Option<Shot> {
         let nothing = Trajectory {
+            bodies: Vec::new(),
             shapes: Vec::new(),
             times_s: Vec::new(),
             poses: Vec::new(),

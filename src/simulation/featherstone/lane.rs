@@ -1,15 +1,22 @@
 //! One world of several that go side by side: what can be seen of it and done to it.
 
 use super::contact::Footing;
+use super::kinematics;
 use super::spatial::Spatial;
-use super::{FeatherstoneWorld, kinematics};
+use super::worlds::FeatherstoneWorld;
 use crate::evolution::Outcome;
+use crate::simulation::assembly::Member;
 use crate::simulation::lanes::Everywhere;
 use crate::simulation::lanes::width::{Alone, Width};
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{Isometry3, Translation3, Vector3};
 
 impl<G: Footing<W>, W: Width> FeatherstoneWorld<G, W> {
+    /// One of the worlds.
+    pub fn lane(&mut self, lane: usize) -> Lane<'_, G, W> {
+        Lane { worlds: self, lane }
+    }
+
     fn check(&self, lane: usize) -> Result<(), Outcome> {
         let rates: f64 = self.rates_rad_s.iter().map(|rate| rate.get(lane)).sum();
         let root: f64 = self.velocities[0].0.iter().map(|number| number.get(lane)).sum();
@@ -46,6 +53,36 @@ impl<G: Footing<W>, W: Width> FeatherstoneWorld<G, W> {
     fn velocity(&self, lane: usize, part: usize) -> Vector3<f64> {
         let centre_m = self.places[part].inertia.centre_m.lane(lane);
         self.velocities[part].lane(lane).velocity_at(&centre_m).alone()
+    }
+
+    fn turn(&self, lane: usize, part: usize) -> Vector3<f64> {
+        self.velocities[part].lane(lane).angular().alone()
+    }
+
+    /// Impulses act half a step before the places that momenta are evaluated at, as weights do.
+    fn apply_one(
+        &mut self,
+        lane: usize,
+        part: usize,
+        force_n: Vector3<f64>,
+        torque_nm: Vector3<f64>,
+    ) {
+        let step_s = self.step_s.get(lane);
+        let centre_m = self.places[part].inertia.centre_m.lane(lane);
+        let ahead_m = self.velocities[part].lane(lane).velocity_at(&centre_m) * (0.5 * step_s);
+        let force_ns = Alone.vector(&(force_n * step_s));
+        let torque =
+            Spatial::new(Alone.vector(&(torque_nm * step_s)), Alone.vector(&Vector3::zeros()));
+        let impulse = Spatial::of_force_at(&force_ns, &(centre_m - ahead_m)) + torque;
+        let momentum = &mut self.momenta[part];
+        momentum.set_lane(lane, momentum.lane(lane) + impulse);
+    }
+
+    fn is_pushed(&self, lane: usize, part: usize) -> bool {
+        self.remembered.iter().any(|name| {
+            let surface = &self.model.solids[name / G::TOUCHES_PER_SOLID];
+            surface.link == part && self.contact_impulses_ns[*name][2].get(lane) > 0.0
+        })
     }
 
     #[cfg(test)]
@@ -91,8 +128,12 @@ impl<G: Footing<W>, W: Width> World for Lane<'_, G, W> {
         self.worlds.stop(self.lane);
     }
 
-    fn push(&mut self, velocity_m_s: Vector3<f64>) {
+    fn push(&mut self, _: &Member, velocity_m_s: Vector3<f64>) {
         self.worlds.push_one(self.lane, velocity_m_s);
+    }
+
+    fn apply(&mut self, part: usize, force_n: Vector3<f64>, torque_nm: Vector3<f64>) {
+        self.worlds.apply_one(self.lane, part, force_n, torque_nm);
     }
 
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
@@ -105,6 +146,14 @@ impl<G: Footing<W>, W: Width> World for Lane<'_, G, W> {
 
     fn velocity_m_s(&self, part: usize) -> Vector3<f64> {
         self.worlds.velocity(self.lane, part)
+    }
+
+    fn turn_rad_s(&self, part: usize) -> Vector3<f64> {
+        self.worlds.turn(self.lane, part)
+    }
+
+    fn touches(&self, part: usize) -> bool {
+        self.worlds.is_pushed(self.lane, part)
     }
 
     #[cfg(test)]
@@ -122,8 +171,12 @@ impl<G: Footing<Alone>> World for FeatherstoneWorld<G> {
         self.lane(0).halt();
     }
 
-    fn push(&mut self, velocity_m_s: Vector3<f64>) {
-        self.lane(0).push(velocity_m_s);
+    fn push(&mut self, _: &Member, velocity_m_s: Vector3<f64>) {
+        self.push_one(0, velocity_m_s);
+    }
+
+    fn apply(&mut self, part: usize, force_n: Vector3<f64>, torque_nm: Vector3<f64>) {
+        self.apply_one(0, part, force_n, torque_nm);
     }
 
     fn world_from_part(&self, part: usize) -> Isometry3<f64> {
@@ -136,6 +189,14 @@ impl<G: Footing<Alone>> World for FeatherstoneWorld<G> {
 
     fn velocity_m_s(&self, part: usize) -> Vector3<f64> {
         self.velocity(0, part)
+    }
+
+    fn turn_rad_s(&self, part: usize) -> Vector3<f64> {
+        self.turn(0, part)
+    }
+
+    fn touches(&self, part: usize) -> bool {
+        self.is_pushed(0, part)
     }
 
     #[cfg(test)]

@@ -1,9 +1,9 @@
 //! A step of every world.
 
-use super::FeatherstoneWorld;
 use super::contact::{Facing, Footing, Stance};
 use super::factor::Swing;
 use super::spatial::Spatial;
+use super::worlds::FeatherstoneWorld;
 use crate::simulation::lanes::width::{Width, Work};
 use crate::simulation::lanes::{Everywhere, Real, Vec3};
 
@@ -16,7 +16,7 @@ const ATTEMPTS_MAX: usize = 4;
 const SWING_SHARE_MAX: f64 = 0.1;
 
 /// A step of every world, to be compiled where the processor's instructions can be used.
-pub struct Step<'a, G: Footing<W>, W: Width>(pub &'a mut FeatherstoneWorld<G, W>);
+struct Step<'a, G: Footing<W>, W: Width>(&'a mut FeatherstoneWorld<G, W>);
 
 impl<G: Footing<W>, W: Width> Work for Step<'_, G, W> {
     type Output = ();
@@ -28,6 +28,11 @@ impl<G: Footing<W>, W: Width> Work for Step<'_, G, W> {
 }
 
 impl<G: Footing<W>, W: Width> FeatherstoneWorld<G, W> {
+    /// Advances every world by one step of its own.
+    pub fn step_all(&mut self) {
+        self.width.with(Step(self));
+    }
+
     #[inline(always)]
     fn step_side_by_side(&mut self) {
         self.find_contacts();

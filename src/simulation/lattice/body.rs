@@ -121,3 +121,14 @@ impl Surroundings {
         self_collision: true,
     };
 }
+
+/// Where a voxel is and what it looks like.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corner {
+    /// Its middle, in metres.
+    pub position_m: Vector3<f64>,
+    /// The directions of its edges.
+    pub axes: [Vector3<f64>; 3],
+    /// Half of its length, in metres.
+    pub half_m: f64,
+}

@@ -1,6 +1,6 @@
 //! What a lattice has: energy, momentum, and what it owes nobody.
 
-use super::Corner;
+use super::body::Corner;
 use super::link;
 use super::node::Node;
 use super::world::{Joint, World};

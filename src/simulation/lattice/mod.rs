@@ -19,7 +19,9 @@ mod node;
 mod tests;
 mod world;
 
-pub use body::{AIR_DAMPING, Body, CONTACT_DAMPING, Floor, LINK_DAMPING, Surroundings, Voxel};
+pub use body::{
+    AIR_DAMPING, Body, CONTACT_DAMPING, Corner, Floor, LINK_DAMPING, Surroundings, Voxel,
+};
 pub use ledger::Energy;
 
 use super::lanes::width::{Alone, Avx2, Pair, avx2, pair};
@@ -44,17 +46,6 @@ pub enum Breadth {
     Best,
     /// As many as given, or as the processor has of that.
     AtMost(usize),
-}
-
-/// Where a voxel is and what it looks like.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Corner {
-    /// Its middle, in metres.
-    pub position_m: Vector3<f64>,
-    /// The directions of its edges.
-    pub axes: [Vector3<f64>; 3],
-    /// Half of its length, in metres.
-    pub half_m: f64,
 }
 
 macro_rules! every_width {

@@ -1,34 +1,22 @@
 //! A terrain as rapier has it.
 
 use super::super::terrain::Terrain;
-use super::scene::Scene;
+use super::surface;
 use rapier3d::prelude::*;
 use std::f32::consts::FRAC_PI_2;
-use std::sync::OnceLock;
 
 /// The thickness of walls, and how far they reach below the ground, in metres.
 const WALL_M: f32 = 1.0;
 
-/// The shape of a terrain, built when it is first needed: every trial stands on the same one.
-#[derive(Clone, Default)]
-pub struct Field(OnceLock<SharedShape>);
-
-impl PartialEq for Field {
-    /// It follows from the heights.
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-// Nothing ever changes the shape once it is there.
-impl std::panic::RefUnwindSafe for Field {}
-
 /// The ground and the walls.
 pub fn colliders(terrain: &Terrain) -> Vec<ColliderBuilder> {
     // rapier's heights are along y, ours along z: its rows go north to south.
-    let ground = ColliderBuilder::new(terrain.field.0.get_or_init(|| shape(terrain)).clone())
+    let ground = ColliderBuilder::new(terrain.shape.0.get_or_init(|| shape(terrain)).clone())
         .rotation(Vector::X * FRAC_PI_2);
-    std::iter::once(ground).chain(walls(terrain)).map(Scene::ground_collider).collect()
+    std::iter::once(ground)
+        .chain(walls(terrain))
+        .map(|ground| surface::collider(ground, surface::of_ground()))
+        .collect()
 }
 
 fn shape(terrain: &Terrain) -> SharedShape {

@@ -1,14 +1,9 @@
-//! The world that a body is put into: a ground, gravity, a clock.
+//! The world that bodies are put into: a ground, gravity, a clock.
 
 use super::super::terrain::Ground;
 use super::super::trial::{FRICTION, Trial};
-use super::field;
+use super::{field, surface};
 use rapier3d::prelude::*;
-
-/// The ground belongs to this group and touches the creature; links of one creature never touch each other,
-/// since most overlap their neighbours at birth.
-const GROUND_GROUP: Group = Group::GROUP_1;
-const CREATURE_GROUP: Group = Group::GROUP_2;
 
 /// A world with a ground.
 pub struct Scene {
@@ -36,7 +31,7 @@ impl Scene {
             Ground::Terrain(terrain) => field::colliders(terrain),
             Ground::Plane => {
                 let plane = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));
-                vec![Self::ground_collider(plane)]
+                vec![surface::collider(plane, surface::of_ground())]
             }
         };
         let friction = FRICTION * trial.perturbation.friction * trial.ground.roughness();
@@ -44,22 +39,5 @@ impl Scene {
             world.insert_collider(ground.friction(friction as f32), None);
         }
         Self { world }
-    }
-
-    /// A collider of the ground, touching links alone.
-    pub(super) fn ground_collider(builder: ColliderBuilder) -> ColliderBuilder {
-        Self::surface(builder, GROUND_GROUP, CREATURE_GROUP)
-    }
-
-    /// The collider of a link, touching the ground alone.
-    pub(super) fn link_collider(builder: ColliderBuilder) -> ColliderBuilder {
-        Self::surface(builder, CREATURE_GROUP, GROUND_GROUP)
-    }
-
-    fn surface(builder: ColliderBuilder, of: Group, touches: Group) -> ColliderBuilder {
-        builder
-            .friction(FRICTION as f32)
-            .friction_combine_rule(CoefficientCombineRule::Multiply)
-            .collision_groups(InteractionGroups::new(of, touches, InteractionTestMode::And))
     }
 }

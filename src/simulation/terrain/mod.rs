@@ -10,7 +10,7 @@ mod tests;
 
 pub use mountain::mountain;
 
-use super::rapier::Field;
+use super::rapier::ground_shape::GroundShape;
 use nalgebra::{Vector2, Vector3};
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
@@ -91,7 +91,7 @@ pub struct Terrain {
     start_m: [f64; 2],
     wall_top_m: f64,
     /// The same, as rapier has it.
-    pub(super) field: Field,
+    pub(super) shape: GroundShape,
 }
 
 /// What makes a grid no terrain.
@@ -157,9 +157,9 @@ impl Terrain {
                 return Err(TerrainError::Height(*height_m));
             }
         }
-        let field = Field::default();
+        let shape = GroundShape::default();
         let mut terrain =
-            Self { columns, rows, step_m, heights_m, start_m, wall_top_m: 0.0, field };
+            Self { columns, rows, step_m, heights_m, start_m, wall_top_m: 0.0, shape };
         terrain.check_cliffs()?;
         if !terrain.holds(start_m[0], start_m[1]) {
             return Err(TerrainError::Start(start_m[0], start_m[1]));

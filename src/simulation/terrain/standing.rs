@@ -1,6 +1,6 @@
 //! Where on a terrain a body begins.
 
-use super::super::trial::Start;
+use super::super::start::Start;
 use super::Terrain;
 use crate::creature::Morphology;
 use nalgebra::{Vector2, Vector3};
@@ -9,12 +9,17 @@ use nalgebra::{Vector2, Vector3};
 const ROOM_M: f64 = 0.05;
 
 impl Terrain {
-    /// Where the root of a body begins, in metres: above [`Terrain::start_m`], unless a wall is nearer to that than
+    /// Where the root of a body begins, in metres: above [`Terrain::start_m`] or so far from it, unless a wall is nearer to that than
     /// the body reaches, and so high that every link is as high over the highest ground below it as the start says.
-    pub fn root_start_m(&self, morphology: &Morphology, start: Start) -> Vector3<f64> {
+    pub fn root_start_m(
+        &self,
+        morphology: &Morphology,
+        start: Start,
+        offset_m: Vector3<f64>,
+    ) -> Vector3<f64> {
         let boxes = boxes(morphology);
         let [x_m, y_m] = self.start_m();
-        let wish_m = Vector2::new(x_m, y_m);
+        let wish_m = Vector2::new(x_m, y_m) + offset_m.xy();
         let at_m = Vector2::from_fn(|axis, _| {
             let edges = boxes.iter().map(|it| (it.low_m[axis], it.high_m[axis]));
             let (low_m, high_m) =
@@ -33,7 +38,7 @@ impl Terrain {
                 boxes.iter().map(lift_m).fold(f64::NEG_INFINITY, f64::max) + height_m
             }
         };
-        Vector3::new(at_m.x, at_m.y, height_m)
+        Vector3::new(at_m.x, at_m.y, height_m + offset_m.z)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Bodies that no genome makes, put together by hand.
 
 use crate::creature::{
-    Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Brain, Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -29,7 +29,7 @@ impl Body {
                 links: vec![cuboid(half_extents_m, mass_kg, None)],
                 root_rotation: UnitQuaternion::identity(),
             },
-            controller: Controller { period_s: 0.1, motors: vec![None] },
+            controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
         })
     }
 

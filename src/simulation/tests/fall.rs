@@ -1,7 +1,8 @@
 //! Free fall.
 
 use super::super::Engine;
-use super::super::trial::{Start, Trial};
+use super::super::start::Start;
+use super::super::trial::Trial;
 use super::bodies::{Body, limbs};
 use super::lab::Lab;
 use super::{GRAVITY_M_S2, TRIAL};

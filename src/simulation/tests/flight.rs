@@ -1,6 +1,7 @@
 //! What nothing acts on from outside keeps its momentum and its spin.
 
-use super::super::trial::{Guards, Start, Trial};
+use super::super::start::Start;
+use super::super::trial::{Guards, Trial};
 use super::super::{Engine, simulate};
 use super::SPACE;
 use super::bodies::limbs;

@@ -13,7 +13,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 /// A body in an engine's world.
 pub struct Lab {
     pub world: Box<dyn Stepper>,
-    assembly: Assembly,
+    pub assembly: Assembly,
     trial: Trial,
 }
 
@@ -65,7 +65,7 @@ impl Lab {
     }
 
     pub fn centre_of_mass(&self) -> Vector3<f64> {
-        world::centre_of_mass(&*self.world, &self.assembly)
+        world::centre_of_mass(&*self.world, &self.assembly, &self.assembly.bodies[0])
     }
 
     fn centre_of(&self, part: usize) -> Vector3<f64> {

@@ -14,13 +14,17 @@ mod motors;
 mod pendulum;
 mod perturbed;
 mod rolling;
+mod senses;
 mod sliding;
 mod slopes;
 mod spinning;
+mod together;
 
+use super::medium::Medium;
 use super::perturbation::Perturbation;
+use super::start::Start;
 use super::terrain::Ground;
-use super::trial::{Guards, Start, Trial};
+use super::trial::{Guards, Trial};
 
 /// Acceleration of gravity in these tests, in m/s².
 const GRAVITY_M_S2: f64 = 10.0;
@@ -31,6 +35,7 @@ const TRIAL: Trial = Trial {
     perturbation: Perturbation::NONE,
     gravity_m_s2: GRAVITY_M_S2,
     ground: Ground::Plane,
+    medium: Medium::Void,
     start: Start::LowestAt(0.0),
     settle_s: 0.0,
     scored_s: 0.0,

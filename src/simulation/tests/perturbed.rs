@@ -2,7 +2,8 @@
 
 use super::super::assembly::Assembly;
 use super::super::perturbation::Perturbation;
-use super::super::trial::{GRIP, Guards, Start, Trial};
+use super::super::start::Start;
+use super::super::trial::{GRIP, Guards, Trial};
 use super::super::{Engine, Measurement, simulate};
 use super::bodies::{Body, Hinge, limbs, sled};
 use super::lab::Lab;
@@ -44,7 +45,8 @@ fn a_push_gives_a_body_that_moves_anyhow_its_mass_times_the_velocity_and_turns_n
             (1..lab.parts()).for_each(|part| lab.world.drive(part, 2.0));
             lab.run(0.2);
             let before = lab.motion();
-            lab.world.push(PUSH);
+            let body = lab.assembly.bodies[0].clone();
+            lab.world.push(&body, PUSH);
             let after = lab.motion();
             let wrong = after.momentum - before.momentum - mass_kg * PUSH;
             assert!(wrong.norm() < 0.001 * mass_kg * PUSH.norm(), "{engine}: {wrong}");

@@ -1,8 +1,9 @@
 //! Bodies on slopes, against walls and over them: what mechanics says, in every engine.
 
 use super::super::perturbation::Perturbation;
+use super::super::start::Start;
 use super::super::terrain::Terrain;
-use super::super::trial::{Start, Trial};
+use super::super::trial::Trial;
 use super::super::{Engine, simulate};
 use super::bodies::{ball, ridden, sled};
 use super::lab::Lab;

@@ -1,7 +1,9 @@
 //! What recordings are made of, and how they are read back.
 
 use crate::archipelago::Report;
-use crate::creature::{Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform};
+use crate::creature::{
+    Brain, Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+};
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Spread, Statistics};
 use crate::simulation::Ground;
@@ -61,7 +63,10 @@ pub fn body(shapes: &[Shape]) -> (Morphology, Controller) {
     let links: Vec<Link> = shapes.iter().enumerate().map(link).collect();
     let motors = links.iter().map(|link| link.joint.as_ref().map(|_| motor)).collect();
     let root_rotation = UnitQuaternion::identity();
-    (Morphology { links, root_rotation }, Controller { period_s: 0.05, motors })
+    (
+        Morphology { links, root_rotation },
+        Controller { period_s: 0.05, motors, brain: Brain::Waves },
+    )
 }
 
 pub fn report(island: u32, generation: u32) -> Report {
@@ -87,7 +92,8 @@ pub fn walker(frames: usize, pairs: usize, speed_mps: f64) -> Trajectory {
     shapes.extend(std::iter::repeat_n(leg, pairs * 2));
     let times_s: Vec<f64> = (0..frames).map(|frame| frame as f64 / 60.0).collect();
     let poses = times_s.iter().map(|&time| stride(time, pairs, half, speed_mps)).collect();
-    Trajectory { shapes, times_s, poses, scoring_from_s: 0.0, ground: Ground::Plane }
+    let bodies = vec![shapes.len()];
+    Trajectory { shapes, bodies, times_s, poses, scoring_from_s: 0.0, ground: Ground::Plane }
 }
 
 pub fn stride(time_s: f64, pairs: usize, half: Vector3<f64>, speed_mps: f64) -> Vec<Pose> {

@@ -15,9 +15,9 @@
 //! | paddle_walker | 0.381 | 0.116 | 0.05–0.60 | stick and slip: the two differ by a factor of three |
 
 use islands::creature::{
-    Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Brain, Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
 };
-use islands::simulation::{self, Engine, Ground, Guards, Perturbation, Start, Trial};
+use islands::simulation::{self, Engine, Ground, Guards, Medium, Perturbation, Start, Trial};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::Deserialize;
 
@@ -94,6 +94,7 @@ impl Body {
             controller: Controller {
                 period_s: 0.1,
                 motors: self.links.iter().map(Part::motor).collect(),
+                brain: Brain::Waves,
             },
         }
     }
@@ -104,6 +105,7 @@ impl Body {
             perturbation: Perturbation::NONE,
             gravity_m_s2: 10.0,
             ground: Ground::Plane,
+            medium: Medium::Void,
             start: Start::RootAt(self.z_lift),
             settle_s: 0.0,
             scored_s: 10.0,

@@ -4,7 +4,7 @@ use super::expansion::Copy;
 use super::profile::Profile;
 use super::traits::Traits;
 use crate::creature::body::{JointKind, Morphology};
-use crate::creature::brain::{Controller, Motor};
+use crate::creature::brain::{Brain, Controller, Motor};
 use std::f64::consts::PI;
 
 /// The torque of every motor in the course, in newton metres.
@@ -45,5 +45,9 @@ pub fn build(
             },
         })
     });
-    Controller { period_s: profile.control_period_s(), motors: motors.collect() }
+    Controller {
+        period_s: profile.control_period_s(),
+        motors: motors.collect(),
+        brain: Brain::Waves,
+    }
 }

@@ -3,13 +3,20 @@
 mod motion;
 mod widths;
 
-use super::*;
+use super::FeatherstoneWorld;
+use super::factor::Whitened;
+use super::spatial::Spatial;
 use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::creature::{Gene, Profile, express};
 use crate::evolution::Outcome;
+use crate::simulation::assembly::Assembly;
+use crate::simulation::lanes::width::Alone;
+use crate::simulation::lanes::{Everywhere, Real};
+use crate::simulation::medium::Medium;
 use crate::simulation::perturbation::Perturbation;
+use crate::simulation::start::Start;
 use crate::simulation::terrain::Ground;
-use crate::simulation::trial::{Guards, Start};
+use crate::simulation::trial::{Guards, Trial};
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{DMatrix, DVector, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -20,6 +27,7 @@ const TRIAL: Trial = Trial {
     perturbation: Perturbation::NONE,
     gravity_m_s2: 9.81,
     ground: Ground::Plane,
+    medium: Medium::Void,
     start: Start::LowestAt(0.1),
     settle_s: 0.0,
     scored_s: 1.0,

@@ -1,0 +1,39 @@
+//! What is measured in a trial.
+
+use nalgebra::{Isometry3, Vector2, Vector3};
+
+/// What was measured in a trial that ran to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measurement {
+    /// The root's position after the very first step, in metres.
+    pub root_first_m: Vector3<f64>,
+    /// The root's position at the end, in metres.
+    pub root_last_m: Vector3<f64>,
+    /// The centre of mass when scoring began, in metres.
+    pub centre_first_m: Vector3<f64>,
+    /// The centre of mass at the end, in metres.
+    pub centre_last_m: Vector3<f64>,
+    /// The length of the horizontal path of the centre of mass while scoring, in metres, from positions
+    /// 0.1 s apart.
+    pub path_m: f64,
+    /// Where the centre of mass was above the ground, in metres: when scoring began, and every
+    /// [`TRACK_SAMPLE_S`] since.
+    pub track_m: Vec<Vector2<f64>>,
+    /// On a terrain, the height of the body's lowest point at the same moments, but at most that of the ground below
+    /// its centre of mass, in metres: what is in the air, or leans on a wall, is no higher than what it is above.
+    pub heights_m: Vec<f64>,
+    /// Where every part was at the same moments: a list a moment, in the order of the body's [`assembly`].
+    pub poses: Vec<Vec<Isometry3<f64>>>,
+    /// How far the body reaches from its root at rest, in metres.
+    pub extent_m: f64,
+}
+
+/// Positions on the track of the centre of mass are this far apart, in seconds.
+pub const TRACK_SAMPLE_S: f64 = 0.1;
+
+impl Measurement {
+    /// That of the only body of a trial.
+    pub(super) fn only(mut measured: Vec<Self>) -> Self {
+        measured.pop().expect("every body of a trial is measured")
+    }
+}

@@ -1,0 +1,18 @@
+//! What rapier makes of a terrain, kept with it.
+
+use rapier3d::prelude::SharedShape;
+use std::sync::OnceLock;
+
+/// The shape of a terrain, built when it is first needed: every trial stands on the same one.
+#[derive(Clone, Default)]
+pub struct GroundShape(pub(super) OnceLock<SharedShape>);
+
+impl PartialEq for GroundShape {
+    /// It follows from the heights.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+// Nothing ever changes the shape once it is there.
+impl std::panic::RefUnwindSafe for GroundShape {}
