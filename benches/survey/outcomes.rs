@@ -4,6 +4,7 @@ use super::{GENES, LINKS_MAX, SEED, creatures, problem};
 use islands::creature::{Gene, Profile};
 use islands::evolution::{Outcome, Problem};
 use islands::problems::Locomotion;
+use islands::problems::outcomes;
 use islands::simulation::Engine;
 
 /// Prints how many ended how, by profile and engine.
@@ -16,7 +17,7 @@ pub fn survey(count: usize) {
          seed {SEED}; each profile's first task\n",
         GENES.len()
     );
-    let names = Outcome::ALL.map(|outcome| outcome.to_string());
+    let names = outcomes::ALL.map(|outcome| outcome.to_string());
     println!("| profile | task | engine | {} |", names.join(" | "));
     println!("|---|---|---{}|", "|---".repeat(names.len()));
     let mut panics = 0;
@@ -28,7 +29,7 @@ pub fn survey(count: usize) {
             let evaluations = problem.evaluate_batch(&genomes);
             let number =
                 |outcome| evaluations.iter().filter(|tried| tried.outcome == outcome).count();
-            let numbers = Outcome::ALL.map(|outcome| number(outcome).to_string());
+            let numbers = outcomes::ALL.map(|outcome| number(outcome).to_string());
             println!("| {profile} | {} | {engine} | {} |", problem.task, numbers.join(" | "));
             panics += number(Outcome::Panicked);
         }

@@ -6,10 +6,9 @@
 use super::statistics::{quantile, rank_correlation};
 use super::{GENES, SEED, creatures, problem};
 use islands::creature::{Creature, Profile};
-use islands::evolution::Outcome;
 use islands::problems::Task;
 use islands::simulation::stability::Ledger;
-use islands::simulation::{Engine, Guards, Measurement, Trajectory, Trial, film};
+use islands::simulation::{Engine, Failure, Guards, Measurement, Trajectory, Trial, film};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
@@ -20,7 +19,7 @@ const TASKS: [Task; 2] = [Task::Walk, Task::Travel];
 
 /// What a trial came to.
 struct Tried {
-    result: Result<Measurement, Outcome>,
+    result: Result<Measurement, Failure>,
     /// Speed that it gained out of nothing, in m/s.
     excess_m_s: f64,
 }

@@ -53,7 +53,7 @@ impl<G: Gene> Island<G> {
         let born =
             (u64::from(self.generation) + 1).saturating_mul(archipelago.strategy.population as u64);
         let tried = effort.evaluations.checked_add(effort.reused);
-        let ended = effort.outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+        let ended = effort.outcomes.total();
         require(ended == Some(effort.evaluations), Misfit::Effort)?;
         require(tried.is_some_and(|tried| tried <= born), Misfit::Effort)
     }
@@ -140,7 +140,7 @@ mod tests {
             (Misfit::Champion, |i| i.population[2].fitness = Fitness::new(999.0)),
             (Misfit::Champion, |i| i.champion.fitness = Fitness::WORST),
             (Misfit::Effort, |i| i.effort.evaluations += 1),
-            (Misfit::Effort, |i| i.effort.outcomes = [u64::MAX; 7]),
+            (Misfit::Effort, |i| i.effort.outcomes = [u64::MAX; 7].into()),
             (Misfit::Effort, |i| i.effort.reused = u64::MAX),
         ];
         let islands = lockstep::run(&Toy, &run(), GENERATION, |_| ());

@@ -1,5 +1,6 @@
 //! How good a genome is, and how its evaluation ended.
 
+use super::outcome::Outcome;
 use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 
@@ -71,53 +72,6 @@ impl Ord for Fitness {
 impl PartialOrd for Fitness {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
-    }
-}
-
-/// How an evaluation ended. All but [`Outcome::Scored`] carry [`Fitness::WORST`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Outcome {
-    /// The trial ran to its end.
-    Scored,
-    /// The genome describes more than may be built, or holds a number outside of its range.
-    TooLarge,
-    /// A gene is no number, or a position or a speed stopped being one.
-    NotFinite,
-    /// A part moved faster than anything healthy does.
-    TooFast,
-    /// The body left the ground by more than a jump explains, or its terrain.
-    Launched,
-    /// The body gained more momentum than gravity and friction can give.
-    Unphysical,
-    /// The evaluation panicked: a bug, contained.
-    Panicked,
-}
-
-impl Outcome {
-    /// Every outcome, in the order in which they are counted and printed.
-    pub const ALL: [Outcome; 7] = [
-        Outcome::Scored,
-        Outcome::TooLarge,
-        Outcome::NotFinite,
-        Outcome::TooFast,
-        Outcome::Launched,
-        Outcome::Unphysical,
-        Outcome::Panicked,
-    ];
-}
-
-impl std::fmt::Display for Outcome {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Outcome::Scored => "scored",
-            Outcome::TooLarge => "too large",
-            Outcome::NotFinite => "not finite",
-            Outcome::TooFast => "too fast",
-            Outcome::Launched => "launched",
-            Outcome::Unphysical => "momentum out of nothing",
-            Outcome::Panicked => "panicked",
-        })
     }
 }
 

@@ -1,12 +1,13 @@
 //! One generation, as a list of named phases: [`reproduce`], which is [`select`] and [`vary`] where there are parents,
 //! and [`evaluate`]. Who survives is [`super::survival`]'s.
 
-use super::fitness::{Evaluation, Fitness, Outcome};
+use super::fitness::{Evaluation, Fitness};
 use super::founders::Founders;
 use super::gene::Gene;
 use super::hurdles::Hurdles;
 use super::individual::{Id, Individual};
 use super::memory::Memory;
+use super::outcome::{Outcome, Outcomes};
 use super::population::{Population, ranking};
 use super::problem::Problem;
 use super::strategy::{Reproduction, Strategy};
@@ -63,8 +64,8 @@ pub struct Effort {
     /// Offspring whose fitness was known already: copies of residents, elites and immigrants among them, and of
     /// their own siblings. Elites and immigrants themselves are no offspring, and never evaluated.
     pub reused: u64,
-    /// How the evaluations that were run ended, in the order of [`Outcome::ALL`].
-    pub outcomes: [u64; Outcome::ALL.len()],
+    /// How the evaluations that were run ended.
+    pub outcomes: Outcomes,
 }
 
 impl Effort {
@@ -73,15 +74,13 @@ impl Effort {
         // Efforts are also read from files, which may say anything.
         self.evaluations = self.evaluations.saturating_add(other.evaluations);
         self.reused = self.reused.saturating_add(other.reused);
-        for (sum, more) in self.outcomes.iter_mut().zip(other.outcomes) {
-            *sum = sum.saturating_add(more);
-        }
+        self.outcomes = self.outcomes.and(other.outcomes);
         self
     }
 
     /// Evaluations that did not end in a score.
     pub fn failures(&self) -> u64 {
-        self.evaluations.saturating_sub(self.outcomes[Outcome::Scored as usize])
+        self.evaluations.saturating_sub(self.outcomes.count(Outcome::Scored))
     }
 }
 
@@ -321,10 +320,9 @@ pub fn judge_best<P: Problem>(problem: &P, population: &mut Population<P::Gene>)
 }
 
 fn effort(evaluations: &[Evaluation], offspring: usize) -> Effort {
-    let count = |outcome| evaluations.iter().filter(|e| e.outcome == outcome).count() as u64;
     Effort {
         evaluations: evaluations.len() as u64,
         reused: (offspring - evaluations.len()) as u64,
-        outcomes: Outcome::ALL.map(count),
+        outcomes: Outcomes::of(evaluations.iter().map(|e| e.outcome)),
     }
 }

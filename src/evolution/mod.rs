@@ -18,6 +18,7 @@ pub mod hurdles;
 pub mod individual;
 pub mod learned;
 pub mod memory;
+pub mod outcome;
 pub mod population;
 pub mod problem;
 pub mod selection;
@@ -28,13 +29,14 @@ pub mod variation;
 #[cfg(test)]
 mod tests;
 
-pub use fitness::{Evaluation, Fitness, Outcome};
+pub use fitness::{Evaluation, Fitness};
 pub use founders::Founders;
 pub use gene::Gene;
 pub use hurdles::{Hurdles, LOOKS};
 pub use individual::{Id, Individual};
 pub use learned::Learned;
 pub use memory::Memory;
+pub use outcome::{Failure, Outcome, Outcomes};
 pub use population::{Population, Spread, Statistics};
 pub use problem::Problem;
 pub use selection::Selection;

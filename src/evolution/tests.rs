@@ -3,12 +3,16 @@
 use super::generation::{Brood, Effort, Offspring, evaluate};
 use super::hurdles::Hurdles;
 use super::{
-    Adaptation, Evaluation, Fitness, Gene, Id, Individual, Memory, Outcome, Problem, Strategy,
+    Adaptation, Evaluation, Failure, Fitness, Gene, Id, Individual, Memory, Outcome, Outcomes,
+    Problem, Strategy,
 };
 use crate::rng::{Purpose, Source, Stream};
 use bytemuck::{Pod, Zeroable};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
+
+/// A failure that the problem of these tests names.
+const LAUNCHED: Outcome = Outcome::Failed(Failure::new(4, "launched"));
 
 /// A genome is worth the sum of its numbers, costs as much as it is long, fails with a 13 in it and panics with a
 /// 66. Who is evaluated is written down.
@@ -45,7 +49,7 @@ impl Problem for Ledger {
     fn evaluate(&self, genome: &[Number]) -> Evaluation {
         self.0.lock().unwrap().push(genome.to_vec());
         if genome.contains(&Number(13)) {
-            return Evaluation::failed(Outcome::Launched);
+            return Evaluation::failed(LAUNCHED);
         }
         if genome.contains(&Number(66)) {
             return Evaluation::failed(Outcome::Panicked);
@@ -75,7 +79,7 @@ fn a_batch_is_begun_with_the_dearest_and_scored_in_the_order_given() {
     let ledger = Ledger::default();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let scores = pool.install(|| ledger.evaluate_batch(&batch));
-    let failed = Evaluation::failed(Outcome::Launched);
+    let failed = Evaluation::failed(LAUNCHED);
     let scored = [1.0, 6.0, 9.0].map(Evaluation::scored);
     assert_eq!(scores, [&scored[..], &[failed]].concat());
     let begun = ledger.0.into_inner().unwrap();
@@ -103,8 +107,7 @@ fn neither_a_copy_of_a_resident_nor_one_of_an_immigrant_nor_a_twin_is_evaluated(
     let mut evaluated = ledger.0.into_inner().unwrap();
     evaluated.sort_unstable_by_key(|genome| genome[0].0);
     assert_eq!(evaluated, [&[3][..], &[7], &[13]].map(genome));
-    let mut outcomes = [0; Outcome::ALL.len()];
-    (outcomes[Outcome::Scored as usize], outcomes[Outcome::Launched as usize]) = (2, 1);
+    let outcomes = Outcomes::of([Outcome::Scored, LAUNCHED, Outcome::Scored]);
     assert_eq!(effort, Effort { evaluations: 3, reused: 4, outcomes });
 }
 
@@ -113,7 +116,7 @@ fn the_genomes_that_made_an_evaluation_panic_are_handed_on_once_each() {
     let brood: [&[u8]; 6] = [&[7], &[2, 66], &[13], &[66], &[2, 66], &[1]];
     let brood = evaluate(&Ledger::default(), brood.map(child).to_vec(), &[], &Hurdles::NONE);
     assert_eq!(brood.panicked, [&[2, 66][..], &[66]].map(genome));
-    assert_eq!(brood.effort.outcomes[Outcome::Panicked as usize], 2);
+    assert_eq!(brood.effort.outcomes.count(Outcome::Panicked), 2);
 }
 
 /// The scale of mutation after a generation of ten offspring so many of which are better than their mother.

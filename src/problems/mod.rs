@@ -73,6 +73,7 @@ pub mod fixed;
 pub mod functions;
 pub mod locomotion;
 pub mod neat;
+pub mod outcomes;
 pub mod progress;
 pub mod robustness;
 mod scoring;

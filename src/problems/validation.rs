@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn a_trial_that_blew_up_is_worth_nothing() {
-        let results = [Ok(2.0), Err(Outcome::TooFast), Ok(4.0)];
+        let results = [Ok(2.0), Err(crate::problems::outcomes::TOO_FAST), Ok(4.0)];
         let found = Validation::of(Engine::Rapier, &results);
         let expected = Validation {
             engine: Engine::Rapier,

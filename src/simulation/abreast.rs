@@ -13,7 +13,7 @@ use super::run::simulate;
 use super::terrain::Ground;
 use super::trial::Trial;
 use crate::creature::Creature;
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use std::sync::OnceLock;
 
 /// How many trials go at a time.
@@ -67,7 +67,7 @@ pub fn simulate_each(
     creature: &Creature,
     trials: &[Trial],
     engine: Engine,
-) -> Vec<Result<Measurement, Outcome>> {
+) -> Vec<Result<Measurement, Failure>> {
     match engine {
         Engine::Rapier => trials.iter().map(|trial| simulate(creature, trial, engine)).collect(),
         Engine::Featherstone if trials.len() == 1 => {
@@ -83,7 +83,7 @@ pub fn simulate_abreast(
     creature: &Creature,
     trials: &[Trial],
     abreast: Abreast,
-) -> Vec<Result<Measurement, Outcome>> {
+) -> Vec<Result<Measurement, Failure>> {
     match (trials.first().map(|trial| trial.ground), abreast) {
         (None, _) => Vec::new(),
         (Some(Ground::Terrain(terrain)), _) => {
@@ -108,7 +108,7 @@ struct Batch<'a, G: Footing<W>, W: Width> {
     worlds: FeatherstoneWorld<G, W>,
     /// Which trial goes on in each world.
     attempts: Vec<Option<(usize, Attempt<'a>)>>,
-    results: Vec<Option<Result<Measurement, Outcome>>>,
+    results: Vec<Option<Result<Measurement, Failure>>>,
 }
 
 impl<'a, G: Footing<W>, W: Width> Batch<'a, G, W> {
@@ -140,7 +140,7 @@ impl<'a, G: Footing<W>, W: Width> Batch<'a, G, W> {
         self.next += 1;
     }
 
-    fn run(mut self) -> Vec<Result<Measurement, Outcome>> {
+    fn run(mut self) -> Vec<Result<Measurement, Failure>> {
         while self.attempts.iter().any(Option::is_some) {
             self.prepare();
             self.worlds.step_all();

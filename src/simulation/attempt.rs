@@ -9,7 +9,7 @@ use super::stability::Guard;
 use super::trial::Trial;
 use super::world::{self, World};
 use crate::creature::Creature;
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::Vector3;
 
 /// Who watches a trial.
@@ -80,19 +80,19 @@ impl<'a> Attempt<'a> {
     /// Goes on after a step; at the end, what was measured of each body or why it could not be.
     pub fn go_on(
         &mut self,
-        stepped: Result<(), Outcome>,
+        stepped: Result<(), Failure>,
         world: &mut impl World,
         observer: &mut impl Observer,
-    ) -> Option<Result<Vec<Measurement>, Outcome>> {
+    ) -> Option<Result<Vec<Measurement>, Failure>> {
         self.follow(stepped, world, observer).transpose()
     }
 
     fn follow(
         &mut self,
-        stepped: Result<(), Outcome>,
+        stepped: Result<(), Failure>,
         world: &mut impl World,
         observer: &mut impl Observer,
-    ) -> Result<Option<Vec<Measurement>>, Outcome> {
+    ) -> Result<Option<Vec<Measurement>>, Failure> {
         stepped?;
         self.step += 1;
         if self.roots_first_m.is_empty() {
@@ -118,7 +118,7 @@ impl<'a> Attempt<'a> {
         &mut self,
         world: &mut impl World,
         observer: &mut impl Observer,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), Failure> {
         let Phase::Settling { round, calm } = &mut self.phase else { return Ok(()) };
         calm.observe(world, self.assembly.parts.len());
         if self.step < self.trial.steps_in_exactly(self.trial.settle_s) {
@@ -148,7 +148,7 @@ impl<'a> Attempt<'a> {
     }
 
     /// Goes on after a step that is scored; whether it was the last.
-    fn score(&mut self, world: &mut impl World) -> Result<bool, Outcome> {
+    fn score(&mut self, world: &mut impl World) -> Result<bool, Failure> {
         let Phase::Scored { steps, bodies } = &mut self.phase else { return Ok(false) };
         for ((scored, guard), body) in
             bodies.iter_mut().zip(&self.guards).zip(&self.assembly.bodies)

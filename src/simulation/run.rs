@@ -11,7 +11,7 @@ use super::trajectory::{FRAMES_PER_S, Trajectory};
 use super::trial::Trial;
 use super::world::{self, Stepper, World};
 use crate::creature::Creature;
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 
 /// Tries a creature.
 ///
@@ -21,7 +21,7 @@ pub fn simulate(
     creature: &Creature,
     trial: &Trial,
     engine: Engine,
-) -> Result<Measurement, Outcome> {
+) -> Result<Measurement, Failure> {
     run(creature, trial, engine, &mut ())
 }
 
@@ -31,7 +31,7 @@ pub fn film(
     creature: &Creature,
     trial: &Trial,
     engine: Engine,
-) -> (Result<Measurement, Outcome>, Trajectory) {
+) -> (Result<Measurement, Failure>, Trajectory) {
     let mut camera = Camera::new(&[Entrant::alone(creature)], trial);
     let result = run(creature, trial, engine, &mut camera);
     (result, camera.trajectory)
@@ -66,7 +66,7 @@ pub fn film_together(
     trial: &Trial,
     meeting: Meeting,
     engine: Engine,
-) -> Result<(Result<Vec<Measurement>, Outcome>, Trajectory), CannotCollide> {
+) -> Result<(Result<Vec<Measurement>, Failure>, Trajectory), CannotCollide> {
     let mut trial = *trial;
     let collide = meeting == Meeting::Collide;
     trial.guards.keeps_ledger &= !collide;
@@ -122,7 +122,7 @@ fn run(
     trial: &Trial,
     engine: Engine,
     observer: &mut impl Observer,
-) -> Result<Measurement, Outcome> {
+) -> Result<Measurement, Failure> {
     let assembly = Assembly::new(creature, trial);
     let creatures = [creature];
     let measured = match (engine, trial.ground) {
@@ -146,7 +146,7 @@ fn run_in(
     creatures: &[&Creature],
     trial: &Trial,
     observer: &mut impl Observer,
-) -> Result<Vec<Measurement>, Outcome> {
+) -> Result<Vec<Measurement>, Failure> {
     let mut attempt = Attempt::new(&world, assembly, creatures, trial, observer);
     loop {
         attempt.prepare(&mut world);

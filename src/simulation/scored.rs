@@ -9,7 +9,7 @@ use super::trial::Trial;
 use super::world::{self, World};
 use crate::creature::Creature;
 use crate::creature::brain::{Mind, Senses};
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::{Isometry3, Vector2, Vector3};
 
 /// One body while it is scored.
@@ -69,7 +69,7 @@ impl Scored {
         assembly: &Assembly,
         body: &Member,
         world: &mut impl World,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), Failure> {
         if steps.is_multiple_of(self.control_steps) {
             guard.check(world, assembly, body)?;
             self.command(assembly, body, world);
@@ -105,7 +105,7 @@ impl Scored {
         assembly: &Assembly,
         body: &Member,
         world: &impl World,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), Failure> {
         let poses = world::part_poses(world, body);
         let centre_m = world::centre_of(&poses, &assembly.parts[body.parts.clone()]);
         self.track_m.push(centre_m.xy());

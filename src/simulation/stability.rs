@@ -5,7 +5,7 @@ use super::terrain::Ground;
 use super::trial::{Guards, Trial};
 use super::world::{self, World};
 use crate::creature::Creature;
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::{Vector2, Vector3};
 
 /// A link may rise above where it began by this many body lengths…
@@ -51,11 +51,11 @@ impl Guard {
     /// # Errors
     /// If the body has left its terrain, over its walls or through its ground. The momentum of what has fallen through
     /// a mesh, and of what hangs on the far side of a wall, is nobody's merit.
-    fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Outcome> {
+    fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Failure> {
         let Ground::Terrain(terrain) = self.ground else { return Ok(()) };
         let depth_m = terrain.height_m(centre_m.x, centre_m.y) - centre_m.z;
         let is_there = terrain.holds(centre_m.x, centre_m.y) && depth_m < self.extent_m;
-        if is_there { Ok(()) } else { Err(Outcome::Launched) }
+        if is_there { Ok(()) } else { Err(Failure::Launched) }
     }
 
     /// Looks at every part of a body, and where on a terrain it is.
@@ -67,7 +67,7 @@ impl Guard {
         world: &impl World,
         assembly: &Assembly,
         body: &Member,
-    ) -> Result<(), Outcome> {
+    ) -> Result<(), Failure> {
         self.check_parts(world, body)?;
         match self.ground {
             Ground::Plane => Ok(()),
@@ -75,19 +75,19 @@ impl Guard {
         }
     }
 
-    fn check_parts(&self, world: &impl World, body: &Member) -> Result<(), Outcome> {
+    fn check_parts(&self, world: &impl World, body: &Member) -> Result<(), Failure> {
         for part in body.parts.clone() {
             let position_m = world.position_m(part);
             let speed_m_s = world.velocity_m_s(part).norm();
             if !(position_m.sum().is_finite() && speed_m_s.is_finite()) {
-                return Err(Outcome::NotFinite);
+                return Err(Failure::NotFinite);
             }
             if speed_m_s > self.guards.speed_m_s_max {
-                return Err(Outcome::TooFast);
+                return Err(Failure::TooFast);
             }
             let refuses_launches = self.guards.refuses_launches;
             if refuses_launches && self.height_m(&position_m) > self.height_max_m {
-                return Err(Outcome::Launched);
+                return Err(Failure::Launched);
             }
         }
         Ok(())
@@ -148,14 +148,14 @@ impl Ledger {
     }
 
     /// Enters the next position of the centre of mass.
-    pub fn enter(&mut self, position_m: Vector3<f64>) -> Result<(), Outcome> {
+    pub fn enter(&mut self, position_m: Vector3<f64>) -> Result<(), Failure> {
         let velocity_m_s = (position_m - self.position_m) / self.period_s;
         let change_m_s = velocity_m_s - self.velocity_m_s;
         let support_m_s = change_m_s.z + self.share * self.gravity_m_s2 * self.period_s;
         let grip_m_s = self.grip * support_m_s;
         self.excess_m_s += (change_m_s.xy().norm() - grip_m_s).max(0.0);
         (self.position_m, self.velocity_m_s, self.share) = (position_m, velocity_m_s, 1.0);
-        if self.excess_m_s > EXCESS_MAX_M_S { Err(Outcome::Unphysical) } else { Ok(()) }
+        if self.excess_m_s > EXCESS_MAX_M_S { Err(Failure::Unphysical) } else { Ok(()) }
     }
 
     /// Enters a velocity that the body got from outside at the moment of the last position, in m/s.
@@ -198,7 +198,7 @@ mod tests {
         assert_eq!(ledger.enter(Vector3::new(0.03, 0.0, hop_m)), Ok(()));
         let falling = Vector3::new(0.06, 0.0, 2.0 * hop_m + fall_m);
         assert_eq!(ledger.clone().enter(falling), Ok(()));
-        assert_eq!(ledger.enter(falling + Vector3::x() * 0.02), Err(Outcome::Unphysical));
+        assert_eq!(ledger.enter(falling + Vector3::x() * 0.02), Err(Failure::Unphysical));
     }
 
     #[test]
@@ -213,7 +213,7 @@ mod tests {
             ledger.enter(Vector3::x() * 0.081)
         };
         assert_eq!(enter(1.25), Ok(()));
-        assert_eq!(enter(0.75), Err(Outcome::Unphysical));
+        assert_eq!(enter(0.75), Err(Failure::Unphysical));
     }
 
     #[test]
@@ -226,7 +226,7 @@ mod tests {
             ledger.enter(Vector3::x() * 0.12)
         };
         assert_eq!(enter(0.6), Ok(()));
-        assert_eq!(enter(0.0), Err(Outcome::Unphysical));
-        assert_eq!(enter(-0.6), Err(Outcome::Unphysical));
+        assert_eq!(enter(0.0), Err(Failure::Unphysical));
+        assert_eq!(enter(-0.6), Err(Failure::Unphysical));
     }
 }

@@ -2,7 +2,7 @@
 
 use super::assembly::{Assembly, Member, Part};
 use super::trajectory::Pose;
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// A world that goes on by itself.
@@ -11,7 +11,7 @@ pub trait Stepper: World {
     ///
     /// # Errors
     /// If the engine met a number that is none.
-    fn step(&mut self) -> Result<(), Outcome>;
+    fn step(&mut self) -> Result<(), Failure>;
 }
 
 /// A body on the ground, or several, under one of the engines. Parts are those of its [`Assembly`], by their index.

@@ -7,7 +7,7 @@ use super::wire::{BatchHeader, IndividualHeader, NOBODY, ReportHeader, ResendReq
 use crate::archipelago::migration::MIGRANTS_MAX;
 use crate::archipelago::{Archipelago, Champion, Outbox, Report};
 use crate::evolution::generation::Effort;
-use crate::evolution::{Fitness, Gene, Id, Individual, Spread, Statistics};
+use crate::evolution::{Fitness, Gene, Id, Individual, Outcomes, Spread, Statistics};
 
 /// Why something received was not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -135,7 +135,7 @@ impl Limits {
             seconds,
             evaluations: effort.evaluations,
             reused: effort.reused,
-            outcomes: effort.outcomes,
+            outcomes: effort.outcomes.into(),
             species,
             reserved: 0,
         })
@@ -255,7 +255,8 @@ fn statistics(header: &ReportHeader) -> Result<Statistics, Rejection> {
 
 fn effort(header: &ReportHeader) -> Result<Effort, Rejection> {
     let ReportHeader { evaluations, reused, outcomes, .. } = *header;
-    let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+    let outcomes = Outcomes::from(outcomes);
+    let ended = outcomes.total();
     require(ended == Some(evaluations), Rejection::Number)?;
     Ok(Effort { evaluations, reused, outcomes })
 }

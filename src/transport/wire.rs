@@ -6,7 +6,7 @@
 
 use crate::archipelago::migration::MIGRANTS_MAX;
 use crate::evolution::population::SPREAD_BARS;
-use crate::evolution::{Gene, Outcome};
+use crate::evolution::{Gene, outcome};
 use iceoryx2::prelude::ZeroCopySend;
 use std::mem::size_of;
 
@@ -105,8 +105,8 @@ pub struct ReportHeader {
     pub evaluations: u64,
     /// Evaluations that were spared.
     pub reused: u64,
-    /// How evaluations ended, in the order of [`Outcome::ALL`].
-    pub outcomes: [u64; Outcome::ALL.len()],
+    /// How evaluations ended: [`Outcomes`](crate::evolution::Outcomes) as data.
+    pub outcomes: [u64; outcome::WORDS],
     /// Species of the population.
     pub species: u32,
     /// Zero: makes the padding a field, so that no byte is left to chance.

@@ -156,7 +156,7 @@ fn a_state_that_cannot_be_of_the_run_is_not_believed_whatever_its_checksum_says(
         assert_eq!(shelf.falls_back(reason), reason);
     }
     shelf.put_back();
-    forge_last(&shelf, &|it| it.effort.outcomes = [u64::MAX; 7]);
+    forge_last(&shelf, &|it| it.effort.outcomes = [u64::MAX; 7].into());
     assert_eq!(shelf.falls_back("outcomes"), "its evaluations do not add up");
 }
 

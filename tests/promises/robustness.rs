@@ -10,7 +10,7 @@ use islands::evolution::{Evaluation, Fitness, Hurdles, Outcome, Problem};
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
 use islands::rng::{Purpose, Source};
 use islands::runs::config::Config;
-use islands::simulation::{self, Engine};
+use islands::simulation::{self, Engine, Failure};
 use islands::store::{RecordLog, RunDir};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -100,11 +100,11 @@ fn whoever_fails_in_one_perturbed_trial_has_failed() {
             let trial = Task::Walk.trial_in(engine).perturbed(index);
             simulation::simulate(&sling(), &trial, engine).err()
         };
-        let found: Vec<Option<Outcome>> = (0..4).map(tried).collect();
-        assert!(found.contains(&None) && found.contains(&Some(Outcome::TooFast)), "{found:?}");
+        let found: Vec<Option<Failure>> = (0..4).map(tried).collect();
+        assert!(found.contains(&None) && found.contains(&Some(Failure::TooFast)), "{found:?}");
         for by in RobustBy::ALL {
             let (evaluation, _) = robust(4, by, engine).film_body(&sling());
-            assert_eq!(evaluation, Evaluation::failed(Outcome::TooFast));
+            assert_eq!(evaluation, Evaluation::failed(Failure::TooFast.into()));
         }
         let (usual, _) = robust(0, RobustBy::Worst, engine).film_body(&sling());
         assert_eq!(usual.outcome, Outcome::Scored);

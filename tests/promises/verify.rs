@@ -154,7 +154,7 @@ fn records_that_contradict_one_another_are_found_although_their_checksums_are_ri
         |entries| entries.swap(1, 2),
         |entries| entries[1].report.island = 0,
         |entries| entries[2].report.effort.evaluations += 1,
-        |entries| entries[2].report.effort.outcomes = [u64::MAX; 7],
+        |entries| entries[2].report.effort.outcomes = [u64::MAX; 7].into(),
         |entries| entries[3].report.immigrants = 0,
         |entries| entries[3].seconds = f64::NAN,
         |entries| a_bit_more(&mut entries[3].report.statistics.best),

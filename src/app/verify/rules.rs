@@ -104,7 +104,7 @@ impl<'a> Terms<'a> {
         }
         let broods = self.broods(generation);
         let Effort { evaluations, reused, outcomes } = report.effort;
-        let ended = outcomes.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count));
+        let ended = outcomes.total();
         let tried = evaluations.checked_add(reused).and_then(|it| usize::try_from(it).ok());
         if !tried.is_some_and(|tried| broods.contains(&tried)) || ended != Some(evaluations) {
             return wrong("counts evaluations that cannot have been");

@@ -4,8 +4,8 @@ use super::contact::Footing;
 use super::kinematics;
 use super::spatial::Spatial;
 use super::worlds::FeatherstoneWorld;
-use crate::evolution::Outcome;
 use crate::simulation::assembly::Member;
+use crate::simulation::failure::Failure;
 use crate::simulation::lanes::Everywhere;
 use crate::simulation::lanes::width::{Alone, Width};
 use crate::simulation::world::{Stepper, World};
@@ -17,12 +17,12 @@ impl<G: Footing<W>, W: Width> FeatherstoneWorld<G, W> {
         Lane { worlds: self, lane }
     }
 
-    fn check(&self, lane: usize) -> Result<(), Outcome> {
+    fn check(&self, lane: usize) -> Result<(), Failure> {
         let rates: f64 = self.rates_rad_s.iter().map(|rate| rate.get(lane)).sum();
         let root: f64 = self.velocities[0].0.iter().map(|number| number.get(lane)).sum();
         let position_m = self.configuration.position_m.lane(lane).alone().sum();
         let is_finite = (rates + root + position_m).is_finite();
-        if is_finite { Ok(()) } else { Err(Outcome::NotFinite) }
+        if is_finite { Ok(()) } else { Err(Failure::NotFinite) }
     }
 
     fn push_one(&mut self, lane: usize, velocity_m_s: Vector3<f64>) {
@@ -114,7 +114,7 @@ impl<G: Footing<W>, W: Width> Lane<'_, G, W> {
     ///
     /// # Errors
     /// If one of them is none.
-    pub fn check(&self) -> Result<(), Outcome> {
+    pub fn check(&self) -> Result<(), Failure> {
         self.worlds.check(self.lane)
     }
 }
@@ -206,7 +206,7 @@ impl<G: Footing<Alone>> World for FeatherstoneWorld<G> {
 }
 
 impl<G: Footing<Alone>> Stepper for FeatherstoneWorld<G> {
-    fn step(&mut self) -> Result<(), Outcome> {
+    fn step(&mut self) -> Result<(), Failure> {
         self.step_all();
         self.check(0)
     }

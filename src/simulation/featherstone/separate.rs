@@ -1,7 +1,7 @@
 //! Several bodies that pass through each other: a world for each, so that each has the same bits as alone.
 
-use crate::evolution::Outcome;
 use crate::simulation::assembly::{Assembly, Member};
+use crate::simulation::failure::Failure;
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{Isometry3, Vector3};
 
@@ -36,7 +36,7 @@ impl<S: Stepper> Separate<S> {
 }
 
 impl<S: Stepper> Stepper for Separate<S> {
-    fn step(&mut self) -> Result<(), Outcome> {
+    fn step(&mut self) -> Result<(), Failure> {
         self.worlds.iter_mut().try_for_each(Stepper::step)
     }
 }

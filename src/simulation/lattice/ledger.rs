@@ -4,7 +4,7 @@ use super::body::Corner;
 use super::link;
 use super::node::Node;
 use super::world::{Joint, World};
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use crate::simulation::lanes::width::{Alone, Width};
 use nalgebra::Vector3;
 
@@ -115,16 +115,16 @@ impl<W: Width> World<W> {
     }
 
     /// Makes sure that everything is a number, and no voxel faster than it may be.
-    pub fn check(&self, speed_max_m_s: f64) -> Result<(), Outcome> {
+    pub fn check(&self, speed_max_m_s: f64) -> Result<(), Failure> {
         for node in self.voxels() {
             let rotation: f64 = node.rotation.iter().map(|number| number.get(0)).sum();
             let sum = node.position_m.alone().sum() + node.spin_rad_s.alone().sum() + rotation;
             let speed_m_s = node.velocity_m_s.alone().norm();
             if !sum.is_finite() || !speed_m_s.is_finite() {
-                return Err(Outcome::NotFinite);
+                return Err(Failure::NotFinite);
             }
             if speed_m_s > speed_max_m_s {
-                return Err(Outcome::TooFast);
+                return Err(Failure::TooFast);
             }
         }
         Ok(())

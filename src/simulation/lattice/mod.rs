@@ -25,7 +25,7 @@ pub use body::{
 pub use ledger::Energy;
 
 use super::lanes::width::{Alone, Avx2, Pair, avx2, pair};
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::Vector3;
 use world::World;
 
@@ -133,7 +133,7 @@ impl Lattice {
     ///
     /// # Errors
     /// If something is no number, or a voxel is faster than so many metres a second.
-    pub fn check(&self, speed_max_m_s: f64) -> Result<(), Outcome> {
+    pub fn check(&self, speed_max_m_s: f64) -> Result<(), Failure> {
         every_width!(self, world => world.check(speed_max_m_s))
     }
 

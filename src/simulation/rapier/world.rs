@@ -4,8 +4,8 @@ use super::convert::{self, from_rapier, to_rapier};
 use super::scene::Scene;
 use super::solid::collider;
 use super::surface;
-use crate::evolution::Outcome;
 use crate::simulation::assembly::{Assembly, Hinge, Member, Part};
+use crate::simulation::failure::Failure;
 use crate::simulation::trial::Trial;
 use crate::simulation::world::{Stepper, World};
 use nalgebra::{Isometry3, Vector3};
@@ -114,11 +114,11 @@ impl RapierWorld {
 }
 
 impl Stepper for RapierWorld {
-    fn step(&mut self) -> Result<(), Outcome> {
+    fn step(&mut self) -> Result<(), Failure> {
         self.scene.world.step();
         self.forget_forces();
         let is_sound = self.scene.world.quarantine().is_empty();
-        if is_sound { Ok(()) } else { Err(Outcome::NotFinite) }
+        if is_sound { Ok(()) } else { Err(Failure::NotFinite) }
     }
 }
 

@@ -9,7 +9,7 @@ use super::bodies::{ball, ridden, sled};
 use super::lab::Lab;
 use super::{GRAVITY_M_S2, TRIAL};
 use crate::creature::{Creature, Inertia};
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 /// The coefficient of friction between a terrain and a link.
@@ -238,6 +238,6 @@ fn who_is_beyond_the_walls_is_not_scored() {
         let within = simulate(&lopsided(0.0), &beside, engine).map(|it| it.heights_m.len());
         assert_eq!(within, Ok(11), "{engine}");
         let beyond = simulate(&lopsided(0.6), &beside, engine);
-        assert_eq!(beyond.unwrap_err(), Outcome::Launched, "{engine}");
+        assert_eq!(beyond.unwrap_err(), Failure::Launched, "{engine}");
     }
 }

@@ -103,7 +103,7 @@ fn report(island: u32, generation: u32) -> Report {
             phenotype_diversity: 0.125,
             spread: Spread::of(&[1.5, 3.0]),
         },
-        effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1] },
+        effort: Effort { evaluations: 9, reused: 2, outcomes: [3, 1, 1, 1, 1, 1, 1].into() },
         immigrants: 2,
         species: 4,
     }

@@ -70,10 +70,10 @@ fn a_body_at_rest_stays_at_rest() {
 fn numbers_that_are_none_end_the_trial_by_their_name() {
     let (mut world, _) = random_world(1, &TRIAL);
     world.momenta[2].0[4] = real(f64::NAN);
-    assert_eq!(world.step(), Err(Outcome::NotFinite));
+    assert_eq!(world.step(), Err(Failure::NotFinite));
     let (mut world, _) = random_world(1, &TRIAL);
     world.targets_rad_s[2] = real(f64::INFINITY);
-    assert_eq!(world.step(), Err(Outcome::NotFinite));
+    assert_eq!(world.step(), Err(Failure::NotFinite));
 }
 
 #[test]

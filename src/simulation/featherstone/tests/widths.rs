@@ -2,7 +2,7 @@
 
 use super::TRIAL;
 use crate::creature::{Creature, Gene, Profile, express};
-use crate::evolution::Outcome;
+use crate::simulation::failure::Failure;
 use crate::simulation::lanes::Everywhere;
 use crate::simulation::lanes::width::{Alone, Avx2, Avx512, Pair, Width, avx2, avx512, pair};
 use crate::simulation::{
@@ -20,7 +20,7 @@ fn random_creature(seed: u64) -> Creature {
 }
 
 /// Everything that was measured, to the last bit; zeros have no sign.
-fn bits(measured: &Result<Measurement, Outcome>) -> Result<Vec<u64>, Outcome> {
+fn bits(measured: &Result<Measurement, Failure>) -> Result<Vec<u64>, Failure> {
     let measured = measured.as_ref().map_err(|outcome| *outcome)?;
     let places = [
         measured.root_first_m,
