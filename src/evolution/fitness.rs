@@ -95,8 +95,8 @@ impl Evaluation {
     }
 
     /// A trial that did not.
-    pub fn failed(outcome: Outcome) -> Self {
-        Self { fitness: Fitness::WORST, outcome }
+    pub fn failed(outcome: impl Into<Outcome>) -> Self {
+        Self { fitness: Fitness::WORST, outcome: outcome.into() }
     }
 }
 

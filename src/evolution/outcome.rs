@@ -74,59 +74,67 @@ impl std::fmt::Display for Outcome {
 
 /// How many evaluations ended how.
 ///
-/// As data it is seven numbers: the scored, and six that each hold two counts of failures, below 2³² (what is more counts
-/// as that many). The lower halves are the failures of format version 1, so that its files read as they are; the upper
-/// halves are six slots more.
+/// It is seven numbers, in memory, in files and between processes: the scored, and six that each hold two counts of
+/// failures, below 2³² (what is more counts as that many). The lower halves are the failures of format version 1, so that
+/// its files read as they are; the upper halves are six slots more.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(from = "[u64; WORDS]", into = "[u64; WORDS]")]
-pub struct Outcomes([u64; SLOTS]);
+pub struct Outcomes([u64; WORDS]);
 
 impl Outcomes {
     /// How some evaluations ended.
     pub fn of(outcomes: impl IntoIterator<Item = Outcome>) -> Self {
-        let mut counts = Self::default();
-        outcomes.into_iter().for_each(|outcome| counts.0[outcome.slot()] += 1);
-        counts
+        let mut slots = [0; SLOTS];
+        outcomes.into_iter().for_each(|outcome| slots[outcome.slot()] += 1);
+        Self::packed(&slots)
     }
 
     /// How many ended so.
     pub fn count(&self, outcome: Outcome) -> u64 {
-        self.0[outcome.slot()]
+        self.slots()[outcome.slot()]
     }
 
     /// How many there are in all; none if that is more than can be counted.
     pub fn total(&self) -> Option<u64> {
-        self.0.iter().try_fold(0_u64, |sum, &count| sum.checked_add(count))
+        self.slots().iter().try_fold(0_u64, |sum, &count| sum.checked_add(count))
     }
 
     /// Both together.
-    pub fn and(mut self, other: Self) -> Self {
-        for (sum, more) in self.0.iter_mut().zip(other.0) {
+    pub fn and(self, other: Self) -> Self {
+        let mut slots = self.slots();
+        for (sum, more) in slots.iter_mut().zip(other.slots()) {
             *sum = sum.saturating_add(more);
         }
-        self
+        Self::packed(&slots)
+    }
+
+    fn slots(&self) -> [u64; SLOTS] {
+        let mut slots = [0; SLOTS];
+        slots[SCORED] = self.0[SCORED];
+        for (index, word) in self.0.into_iter().enumerate().skip(1) {
+            slots[index] = word & u64::from(u32::MAX);
+            slots[index + WORDS - 1] = word >> u32::BITS;
+        }
+        slots
+    }
+
+    fn packed(slots: &[u64; SLOTS]) -> Self {
+        let half = |slot: usize| slots[slot].min(u64::from(u32::MAX));
+        Self(std::array::from_fn(|index| match index {
+            SCORED => slots[SCORED],
+            _ => half(index) | (half(index + WORDS - 1) << u32::BITS),
+        }))
     }
 }
 
 impl From<[u64; WORDS]> for Outcomes {
     fn from(words: [u64; WORDS]) -> Self {
-        let mut slots = [0; SLOTS];
-        slots[SCORED] = words[SCORED];
-        for (index, word) in words.into_iter().enumerate().skip(1) {
-            slots[index] = word & u64::from(u32::MAX);
-            slots[index + WORDS - 1] = word >> u32::BITS;
-        }
-        Self(slots)
+        Self(words)
     }
 }
 
 impl From<Outcomes> for [u64; WORDS] {
-    fn from(Outcomes(slots): Outcomes) -> Self {
-        let half = |slot: usize| slots[slot].min(u64::from(u32::MAX));
-        std::array::from_fn(|index| match index {
-            SCORED => slots[SCORED],
-            _ => half(index) | (half(index + WORDS - 1) << u32::BITS),
-        })
+    fn from(Outcomes(words): Outcomes) -> Self {
+        words
     }
 }
 

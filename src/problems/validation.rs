@@ -1,6 +1,5 @@
 //! What a creature is worth on trials that nobody selected it on: the honest number.
 
-use crate::evolution::Outcome;
 use crate::simulation::Engine;
 use serde::{Deserialize, Serialize};
 
@@ -23,8 +22,9 @@ pub struct Validation {
 
 impl Validation {
     /// What some trials came to.
-    pub fn of(engine: Engine, results: &[Result<f64, Outcome>]) -> Self {
-        let scores: Vec<f64> = results.iter().map(|result| result.unwrap_or(0.0)).collect();
+    pub fn of<E>(engine: Engine, results: &[Result<f64, E>]) -> Self {
+        let scores: Vec<f64> =
+            results.iter().map(|result| *result.as_ref().unwrap_or(&0.0)).collect();
         let count = scores.len().max(1) as f64;
         let mean = scores.iter().sum::<f64>() / count;
         let squares: f64 = scores.iter().map(|score| (score - mean) * (score - mean)).sum();
@@ -52,6 +52,7 @@ impl Validation {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evolution::Outcome;
 
     #[test]
     fn a_trial_that_blew_up_is_worth_nothing() {
@@ -70,9 +71,9 @@ mod tests {
 
     #[test]
     fn one_trial_has_no_spread_and_none_are_worth_nothing() {
-        let one = Validation::of(Engine::Rapier, &[Ok(3.0)]);
+        let one = Validation::of::<Outcome>(Engine::Rapier, &[Ok(3.0)]);
         assert_eq!((one.mean, one.sd, one.worst), (3.0, 0.0, 3.0));
-        let none = Validation::of(Engine::Rapier, &[]);
+        let none = Validation::of::<Outcome>(Engine::Rapier, &[]);
         assert_eq!((none.trials, none.mean, none.sd, none.worst), (0, 0.0, 0.0, 0.0));
     }
 }

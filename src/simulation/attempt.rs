@@ -6,6 +6,7 @@ use super::medium::Medium;
 use super::scored::Scored;
 use super::settling::{self, Calm};
 use super::stability::Guard;
+use super::surroundings;
 use super::trial::Trial;
 use super::world::{self, World};
 use crate::creature::Creature;
@@ -73,7 +74,7 @@ impl<'a> Attempt<'a> {
     /// Lets the medium act before a step.
     pub fn prepare(&self, world: &mut impl World) {
         if self.trial.medium != Medium::Void {
-            self.trial.medium.act(world, &self.assembly);
+            surroundings::act(self.trial.medium, world, &self.assembly);
         }
     }
 

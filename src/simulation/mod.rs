@@ -24,11 +24,13 @@ pub mod medium;
 pub mod perturbation;
 mod perturbed;
 mod rapier;
+mod rapier_shape;
 mod run;
 mod scored;
 pub mod settling;
 pub mod stability;
 pub mod start;
+mod surroundings;
 pub mod terrain;
 #[cfg(test)]
 mod tests;

@@ -99,8 +99,8 @@ fn a_finished_run_of_format_v1_says_what_it_always_said() {
     expect![[r#"
         digest 3282a69b28ca655206d88b446ac6258a1e48bc61e6a9cd5eddaf650b2b04f1b9
         8 rows
-        island 0: 2 champions, the last 3ff928b2297524d8; best [3ed5891c6b19b02b, 3ff928b2297524d8, 3ff928b2297524d8, 3ff928b2297524d8]; migrants [2, 2, 2]; Effort { evaluations: 9, reused: 0, outcomes: Outcomes([9, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]) }
-        island 1: 2 champions, the last 3ff928b2297524d8; best [3ec9cf6713256333, 3ec9cf6713256333, 3ec9cf6713256333, 3ff928b2297524d8]; migrants [2, 2, 2]; Effort { evaluations: 6, reused: 3, outcomes: Outcomes([6, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]) }"#]].assert_eq(&said.join("\n"));
+        island 0: 2 champions, the last 3ff928b2297524d8; best [3ed5891c6b19b02b, 3ff928b2297524d8, 3ff928b2297524d8, 3ff928b2297524d8]; migrants [2, 2, 2]; Effort { evaluations: 9, reused: 0, outcomes: Outcomes([9, 0, 0, 0, 0, 0, 0]) }
+        island 1: 2 champions, the last 3ff928b2297524d8; best [3ec9cf6713256333, 3ec9cf6713256333, 3ec9cf6713256333, 3ff928b2297524d8]; migrants [2, 2, 2]; Effort { evaluations: 6, reused: 3, outcomes: Outcomes([6, 0, 0, 0, 0, 0, 0]) }"#]].assert_eq(&said.join("\n"));
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn whoever_fails_in_one_perturbed_trial_has_failed() {
         assert!(found.contains(&None) && found.contains(&Some(Failure::TooFast)), "{found:?}");
         for by in RobustBy::ALL {
             let (evaluation, _) = robust(4, by, engine).film_body(&sling());
-            assert_eq!(evaluation, Evaluation::failed(Failure::TooFast.into()));
+            assert_eq!(evaluation, Evaluation::failed(Failure::TooFast));
         }
         let (usual, _) = robust(0, RobustBy::Worst, engine).film_body(&sling());
         assert_eq!(usual.outcome, Outcome::Scored);

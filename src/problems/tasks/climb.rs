@@ -1,6 +1,7 @@
 //! To get up the course's mountain, or another terrain: the height that the lowest point gained and kept.
 
-use super::{Definition, walk};
+use super::definition::Definition;
+use super::walk;
 use crate::problems::progress;
 use crate::simulation::terrain::mountain;
 

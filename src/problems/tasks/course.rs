@@ -1,7 +1,8 @@
 //! The course program's set-up and measure: dropped from 2.5 m, the distance of the root in space. It counts the fall,
 //! and is here for comparison.
 
-use super::{Definition, walk};
+use super::definition::Definition;
+use super::walk;
 use crate::simulation::{Guards, Start, Trial};
 
 pub const DEFINITION: Definition = Definition {

@@ -1,28 +1,14 @@
 //! What creatures may have to do: each task is a file, and all of them are listed once, in [`Task`].
 //!
-//! A further task is a file beside these with a [`Definition`], and a line of the list. Flags, help, refusals and
+//! A further task is a file beside these with a [`Definition`](definition::Definition), and a line of the list. Flags, help, refusals and
 //! reports follow from the list.
+
+pub mod definition;
 
 use crate::choice;
 use crate::simulation::{Engine, Measurement, Trial};
+use definition::Definition;
 use serde::{Deserialize, Serialize};
-
-/// All that there is to say of a task.
-pub struct Definition {
-    /// The aim in a few words, as `--help` lists it behind the name.
-    pub aim: &'static str,
-    /// The unit of the score.
-    pub unit: &'static str,
-    /// How bodies are tried in any engine: the ground, which is also what is drawn, the start, the times, and the
-    /// guards against what no body does.
-    pub trial: fn() -> Trial,
-    /// Steps a second in our own engine; none if it needs as many as others.
-    pub own_steps_per_s: Option<u32>,
-    /// Whether perturbed trials push the body. They must not where a push would be a free gain.
-    pub is_pushed: bool,
-    /// What a measurement is worth, in the unit; at least 0 for a body that does nothing.
-    pub score: fn(&Measurement) -> f64,
-}
 
 /// Makes the modules of the tasks, and the enum of them with their names.
 macro_rules! tasks {

@@ -1,6 +1,7 @@
 //! To keep moving: the length of the path of the centre of mass, the lectures' later fitness.
 
-use super::{Definition, walk};
+use super::definition::Definition;
+use super::walk;
 use crate::problems::progress;
 
 pub const DEFINITION: Definition = Definition {

@@ -3,7 +3,8 @@
 //! All parts must go round, the same way: a windmill's stand and its mill, or a rotor and what it pushes off from, do
 //! not. One event gains nothing, as in all tasks ([`progress::kept`]).
 
-use super::{Definition, walk};
+use super::definition::Definition;
+use super::walk;
 use crate::problems::progress;
 use crate::simulation::Measurement;
 use nalgebra::{Isometry3, UnitQuaternion};

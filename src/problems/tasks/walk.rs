@@ -1,6 +1,6 @@
 //! To get away: the horizontal displacement of the centre of mass after settling, if it keeps on.
 
-use super::Definition;
+use super::definition::Definition;
 use crate::problems::progress;
 use crate::simulation::{Ground, Guards, Medium, Perturbation, Start, Trial};
 

@@ -5,8 +5,6 @@
 //! Architecture invariants: this alone imports rapier; every trial builds a fresh world, since a world that was
 //! used before gives other bits; all is f64 up to this border and f32 within it.
 
-pub mod ground_shape;
-
 mod convert;
 mod field;
 mod scene;

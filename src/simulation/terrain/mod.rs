@@ -10,7 +10,7 @@ mod tests;
 
 pub use mountain::mountain;
 
-use super::rapier::ground_shape::GroundShape;
+use super::rapier_shape::GroundShape;
 use nalgebra::{Vector2, Vector3};
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
