@@ -5,9 +5,6 @@ use crate::support::imports::{Import, imports, sources};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Modules in which there are circles yet.
-const EXCUSED: [&str; 2] = ["creature", "simulation"];
-
 /// A path of modules from the root of the crate.
 type Module = Vec<String>;
 
@@ -17,13 +14,7 @@ fn no_file_imports_one_that_imports_it() {
     let files: Vec<(&Path, &str)> =
         sources.iter().map(|it| (it.path.as_path(), it.text.as_str())).collect();
     let found = circles(&files);
-    let is_excused = |circle: &&String| EXCUSED.iter().any(|it| circle.starts_with(it));
-    let wrong: Vec<_> = found.iter().filter(|circle| !is_excused(circle)).collect();
-    assert!(wrong.is_empty(), "{wrong:#?}");
-    for module in EXCUSED {
-        let is_needed = found.iter().any(|circle| circle.starts_with(module));
-        assert!(is_needed, "{module} has no circle any more: excuse it no longer");
-    }
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 #[test]
