@@ -60,11 +60,6 @@ pub trait Problem: Sync + Sized {
         false
     }
 
-    /// All scores that a genome can have on an island, its estimates and, last, its whole score.
-    fn possible_scores(&self, genome: &[Self::Gene]) -> Vec<Fitness> {
-        vec![self.evaluate(genome).fitness]
-    }
-
     /// What a champion is worth on trials that it was not selected on, where there are such. It decides nothing.
     fn validate(&self, _genome: &[Self::Gene]) -> Option<Fitness> {
         None
@@ -101,11 +96,6 @@ pub trait Problem: Sync + Sized {
         [0.0; 2]
     }
 
-    /// What the two features are called.
-    fn feature_names(&self) -> [&'static str; 2] {
-        ["first", "second"]
-    }
-
     /// Estimates what evaluating a genome costs, in any unit. It decides in which order a batch is begun, and so how
     /// long that takes, but no result.
     fn cost(&self, _genome: &[Self::Gene]) -> u64 {
@@ -122,18 +112,5 @@ pub trait Problem: Sync + Sized {
     /// Scores many genomes wholly.
     fn evaluate_batch(&self, genomes: &[&[Self::Gene]]) -> Vec<Evaluation> {
         self.estimate_batch(genomes, &Hurdles::NONE)
-    }
-
-    /// The unit of the fitness, for labels.
-    fn unit(&self) -> &'static str {
-        ""
-    }
-
-    /// A fitness as people read it.
-    fn show(&self, fitness: Fitness) -> String {
-        match fitness.finite() {
-            Some(score) => format!("{score:.3} {}", self.unit()).trim_end().to_owned(),
-            None => "failed".to_owned(),
-        }
     }
 }

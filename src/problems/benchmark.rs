@@ -8,7 +8,7 @@ use super::fixed;
 use super::functions::{Facts, Function};
 use crate::evolution::variation::sequences::Layout;
 use crate::evolution::variation::values::normal;
-use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem};
+use crate::evolution::{Evaluation, Gene, Hurdles, Problem};
 use crate::rng::{Purpose, Source, Stream};
 use crate::work_queue;
 use bytemuck::{Pod, Zeroable};
@@ -156,10 +156,6 @@ impl Problem for Benchmark {
         [0, 1].map(|place| genome.get(place).map_or(0.0, |gene| gene.0))
     }
 
-    fn feature_names(&self) -> [&'static str; 2] {
-        ["x1", "x2"]
-    }
-
     fn distance(&self, a: &[Real], b: &[Real]) -> f64 {
         fixed::distance(a, b, |a, b| (a.0 - b.0).abs())
     }
@@ -181,18 +177,13 @@ impl Problem for Benchmark {
         }
         work_queue::dearest_first(&costs, |index| self.evaluate(genomes[index]))
     }
-
-    /// An error of a millionth is no zero.
-    fn show(&self, fitness: Fitness) -> String {
-        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score:.6e}"))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::creature::encodings::course::VALUE_MAX;
-    use crate::evolution::Outcome;
+    use crate::evolution::{Fitness, Outcome};
 
     fn all(dimensions: usize) -> impl Iterator<Item = Benchmark> {
         let both = |function| [false, true].map(|rotated| (function, rotated));

@@ -3,7 +3,7 @@
 use super::fixed;
 use crate::choice;
 use crate::evolution::variation::sequences::Layout;
-use crate::evolution::{Evaluation, Fitness, Gene, Hurdles, Problem, Variation, variation};
+use crate::evolution::{Evaluation, Gene, Hurdles, Problem, Variation, variation};
 use crate::rng::Stream;
 use bytemuck::{Pod, Zeroable};
 use rand::RngExt;
@@ -136,10 +136,6 @@ impl Problem for Bits {
         })
     }
 
-    fn feature_names(&self) -> [&'static str; 2] {
-        ["ones of the first half", "ones of the second half"]
-    }
-
     /// The share of bits that differ (Hamming 1950).
     fn distance(&self, a: &[Bit], b: &[Bit]) -> f64 {
         fixed::distance(a, b, |a, b| f64::from(u8::from(a != b)))
@@ -153,11 +149,6 @@ impl Problem for Bits {
         fixed::evaluate(genome, self.bits, |genome| {
             genome.chunks(self.block.max(1)).map(worth).sum::<usize>() as f64
         })
-    }
-
-    /// Bits are counted.
-    fn show(&self, fitness: Fitness) -> String {
-        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score}"))
     }
 
     // A pool of threads would take far longer than the work.

@@ -103,6 +103,13 @@ impl<E: Encoding> Locomotion<E> {
         trials.map(|trial| u64::from(trial.steps())).sum()
     }
 
+    /// All scores that a genome can have on an island, its estimates and, last, its whole score.
+    pub fn possible_scores(&self, genome: &[E::Gene]) -> Vec<Fitness> {
+        let possible = || self.grow(genome).map(|creature| self.possible(&creature));
+        let tried = catch_unwind(AssertUnwindSafe(possible));
+        tried.ok().and_then(Result::ok).unwrap_or_else(|| vec![Fitness::WORST])
+    }
+
     /// The body that is scored for a genome.
     fn grow(&self, genome: &[E::Gene]) -> Result<Creature, Outcome> {
         let mut values = genome.iter().flat_map(evolution::Gene::values);
@@ -161,10 +168,6 @@ impl<E: Encoding> Problem for Locomotion<E> {
         [links.min(1.0), (creature.morphology.height_m() / HEIGHT_MAX_M).min(1.0)]
     }
 
-    fn feature_names(&self) -> [&'static str; 2] {
-        ["links", "height"]
-    }
-
     fn distance(&self, a: &[E::Gene], b: &[E::Gene]) -> f64 {
         self.encoding.distance(a, b)
     }
@@ -184,12 +187,6 @@ impl<E: Encoding> Problem for Locomotion<E> {
         self.judged || self.robustness.is_wanted()
     }
 
-    fn possible_scores(&self, genome: &[E::Gene]) -> Vec<Fitness> {
-        let possible = || self.grow(genome).map(|creature| self.possible(&creature));
-        let tried = catch_unwind(AssertUnwindSafe(possible));
-        tried.ok().and_then(Result::ok).unwrap_or_else(|| vec![Fitness::WORST])
-    }
-
     /// The mean of half of the usual fresh trials, in our own engine, which takes a tenth of rapier's time.
     fn validate(&self, genome: &[E::Gene]) -> Option<Fitness> {
         let Ok(creature) = self.express(genome) else { return Some(Fitness::WORST) };
@@ -204,10 +201,6 @@ impl<E: Encoding> Problem for Locomotion<E> {
         let links = catch_unwind(AssertUnwindSafe(|| self.encoding.count_links(genome)));
         let links = links.ok().and_then(Result::ok).unwrap_or(0);
         links as u64 * self.steps()
-    }
-
-    fn unit(&self) -> &'static str {
-        self.task.unit()
     }
 }
 

@@ -5,7 +5,7 @@ use crate::support::{TINY, World};
 use islands::archipelago::Champion;
 use islands::creature::encodings::course::Rescaling;
 use islands::creature::{Course, Gene, Profile};
-use islands::evolution::Problem;
+use islands::runs::subject::Subject;
 use islands::formats::genome_csv;
 use islands::problems::{Locomotion, Robustness, Task};
 use islands::runs::config::Config;

@@ -3,10 +3,11 @@
 use crate::app::cli::ReplayArgs;
 use crate::app::terrain_args;
 use crate::creature::{Creature, Scales};
-use crate::evolution::{Evaluation, Problem};
+use crate::evolution::Evaluation;
 use crate::problems::Locomotion;
 use crate::runs::Failure;
 use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use crate::simulation::{Trajectory, Trial};
 use crate::view::{Draft, Recorder, RunCard};
 use std::path::Path;

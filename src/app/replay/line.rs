@@ -6,7 +6,7 @@ use crate::app::console::{print, say};
 use crate::app::pedigree::{self, Herald};
 use crate::archipelago::{Birth, Births, Champion, Descent, Lineage};
 use crate::creature::Gene;
-use crate::evolution::{Id, Individual, Problem};
+use crate::evolution::{Id, Individual};
 use crate::problems::Locomotion;
 use crate::runs::config::Config;
 use crate::runs::kind::Kind;

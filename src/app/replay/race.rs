@@ -5,7 +5,7 @@ use crate::app::cli::ReplayArgs;
 use crate::app::console::print;
 use crate::app::genomes::Specimen;
 use crate::creature::Course;
-use crate::evolution::{Fitness, Problem};
+use crate::evolution::Fitness;
 use crate::problems::Locomotion;
 use crate::runs::Failure;
 use crate::runs::config::Config;

@@ -2,8 +2,9 @@
 
 use crate::app::console::{Stopwatch, say};
 use crate::archipelago::Report;
-use crate::evolution::{Fitness, Problem};
+use crate::evolution::Fitness;
 use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use crate::transport::Sighting;
 use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::IsTerminal;
@@ -14,7 +15,7 @@ const LINE_EVERY_S: f64 = 5.0;
 
 impl Tally {
     /// The best, what of it holds on fresh trials, how fast it goes, and how long it will.
-    fn news<P: Problem>(
+    fn news<P: Subject>(
         &self,
         problem: &P,
         generation: u32,
@@ -93,7 +94,7 @@ impl Progress {
     }
 
     /// Shows what an island has told, `seconds` after the start.
-    pub fn update<P: Problem>(
+    pub fn update<P: Subject>(
         &mut self,
         problem: &P,
         Sighting { report, champion, .. }: &Sighting<P::Gene>,

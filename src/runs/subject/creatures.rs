@@ -41,6 +41,18 @@ impl Subject for Locomotion {
         Some(file)
     }
 
+    fn unit(&self) -> &'static str {
+        self.task.unit()
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["links", "height"]
+    }
+
+    fn possible_scores(&self, genome: &[Gene]) -> Vec<Fitness> {
+        Locomotion::possible_scores(self, genome)
+    }
+
     fn fresh(&self, genome: &[Gene], trials: Option<u32>) -> Vec<Validation> {
         let Ok(creature) = self.express(genome) else { return Vec::new() };
         self.validate_in_each(&creature, trials.unwrap_or(self.fresh_trials()))

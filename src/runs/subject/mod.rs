@@ -42,6 +42,16 @@ pub trait Subject: Problem + Clone + Send {
         None
     }
 
+    /// What the two features are called.
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["first", "second"]
+    }
+
+    /// All scores that a genome can have on an island, its estimates and, last, its whole score.
+    fn possible_scores(&self, genome: &[Self::Gene]) -> Vec<Fitness> {
+        vec![self.evaluate(genome).fitness]
+    }
+
     /// What so many trials in each engine come to that nobody was selected on, where there are engines; as many as are
     /// usual if none are said.
     fn fresh(&self, _genome: &[Self::Gene], _trials: Option<u32>) -> Vec<Validation> {
@@ -52,6 +62,19 @@ pub trait Subject: Problem + Clone + Send {
     /// has. None where a score leaves nothing to luck, or none is wanted that does.
     fn tried_once_more(&self, _genome: &[Self::Gene]) -> Option<Fitness> {
         None
+    }
+
+    /// The unit of the fitness, for labels.
+    fn unit(&self) -> &'static str {
+        ""
+    }
+
+    /// A fitness as people read it.
+    fn show(&self, fitness: Fitness) -> String {
+        match fitness.finite() {
+            Some(score) => format!("{score:.3} {}", self.unit()).trim_end().to_owned(),
+            None => "failed".to_owned(),
+        }
     }
 
     /// A fitness as a label has room for.

@@ -27,6 +27,15 @@ impl Subject for Benchmark {
         vector_csv::write(COLUMNS[0], genome.iter().map(line), output)
     }
 
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["x1", "x2"]
+    }
+
+    /// An error of a millionth is no zero.
+    fn show(&self, fitness: Fitness) -> String {
+        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score:.6e}"))
+    }
+
     fn short(&self, fitness: Fitness) -> String {
         fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score:.2e}"))
     }
@@ -49,5 +58,14 @@ impl Subject for Bits {
 
     fn write_genome(&self, genome: &[Bit], output: &mut dyn Write) -> io::Result<()> {
         vector_csv::write(COLUMNS[1], genome.iter().map(|bit| bit.0.to_string()), output)
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["ones of the first half", "ones of the second half"]
+    }
+
+    /// Bits are counted.
+    fn show(&self, fitness: Fitness) -> String {
+        fitness.finite().map_or_else(|| "failed".to_owned(), |score| format!("{score}"))
     }
 }
