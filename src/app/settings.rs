@@ -254,22 +254,25 @@ mod tests {
     use crate::app::cli::Cli;
     use clap::Parser;
 
+    /// Among these each setting finds a value that is not its default.
+    const VALUES: [&str; 18] = [
+        "9", "0.9", "true", "random", "sphere", "travel", "lecture", "rapier", "worst", "roulette", "crowding",
+        "uniform", "gaussian", "one-fifth", "torus", "similar", "async", "hill-climb",
+    ];
+
     #[test]
     fn every_setting_has_a_flag_that_wins_over_a_file() {
-        let flags = "islands --n 9 --seed 9 --generations 9 --population 9 --task travel --profile lecture \
-            --genes 9 --max-genes 9 --max-links 9 --selection roulette --elites 9 \
-            --crossover-rate 0.9 --point-rate 0.9 --point-amount 0.9 --shrink-rate 0.9 \
-            --grow-rate 0.9 --migration-interval 9 --migrants 9 --migration-lag 9 \
-            --topology torus --emigrants random --replacement similar --exchange async \
-            --checkpoint-interval 9 --clip-every 9 --threads 9 --engine rapier --algorithm random --survival crowding \
-            --crossover uniform --mutation gaussian --duplicate-rate 0.9 --adaptation one-fifth --heterogeneous --problem sphere \
-            --dimensions 9 --instance 9 --rotated --block 9 --robustness 9 --robust-by worst --judged";
-        let parsed = Cli::try_parse_from(flags.split_whitespace()).expect("these flags exist");
-        let laid =
-            toml::Table::try_from(parsed.run.settings.over(Config::default())).expect("plain data");
-        let file = toml::Table::try_from(Config::default()).expect("plain data");
-        for (name, value) in &file {
-            assert!(laid[name] != *value, "{name} has no flag");
+        let usual = Config::default();
+        for setting in SETTINGS.iter() {
+            let changed = VALUES.iter().find_map(|value| {
+                let mut config = usual.clone();
+                (setting.set)(&mut config, value).ok().filter(|()| config != usual)?;
+                Some((value, config))
+            });
+            let (value, expected) = changed.unwrap_or_else(|| panic!("add a {}", setting.name));
+            let flag = format!("--{}={value}", setting.flag());
+            let parsed = Cli::try_parse_from(["islands", &flag]).expect("the flag exists");
+            assert_eq!(parsed.run.settings.over(usual.clone()), expected, "{flag}");
         }
     }
 }
