@@ -120,12 +120,16 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
     expect![[r#"
         islands = 1
         seed = 3
+        problem = "royal-road"
         algorithm = "ga"
         generations = 2
         population = 50
-        problem = "royal-road"
+
+        [vectors]
         dimensions = 64
         block = 8
+
+        [genetic-algorithm]
         selection = "tournament:3"
         elites = 2
         survival = "generational"
@@ -133,6 +137,8 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
         crossover-rate = 0.9
         point-rate = 0.015625
         heterogeneous = false
+
+        [migration]
         topology = "ring"
         migration-interval = 5
         migrants = 2
@@ -140,6 +146,8 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
         emigrants = "best"
         replacement = "worst"
         exchange = "sync"
+
+        [running]
         checkpoint-interval = 50
     "#]]
     .assert_eq(said);

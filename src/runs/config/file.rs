@@ -175,7 +175,7 @@ pub fn flat(said: Table) -> Result<Table, String> {
         };
         for (key, value) in entries {
             if flat.insert(key.clone(), value).is_some() {
-                return Err(format!("{key} is said twice"));
+                return Err(format!("{} is said twice", harmless(&key)));
             }
         }
     }
@@ -194,11 +194,14 @@ fn line_of(text: &str, key: &str) -> Option<usize> {
 
 /// TOML's errors draw the line that they complain of; ours are one sentence.
 pub fn one_line(error: &toml::de::Error, text: &str) -> String {
-    // It may quote the file: neither at any length nor what a terminal would obey.
-    let shown = error.message().chars().take(COMPLAINT_MAX);
-    let message: String = shown.map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let message = harmless(error.message());
     match error.span().and_then(|span| text.get(..span.start)) {
         Some(before) => format!("line {}: {message}", before.matches('\n').count() + 1),
         None => message,
     }
+}
+
+/// What quotes a file, neither at any length nor with what a terminal would obey.
+fn harmless(text: &str) -> String {
+    text.chars().take(COMPLAINT_MAX).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -22,11 +22,11 @@ settings! {
         of(Run).flag("n").value("N"), in |_| 1.0..=f64::from(ISLANDS_MAX);
     /// Seed that fixes the result
     seed: u64,
-        of(Run).usually("picked and printed").not_in_experiments("say seeds, above all tables");
+        of(Run).value("SEED").usually("picked and printed").not_in_experiments("say seeds, above all tables");
     /// Problem
-    problem: Kind = Kind::Creatures, of(Run).one_of(Kind::list);
+    problem: Kind = Kind::Creatures, of(Run).value("PROBLEM").one_of(Kind::list);
     /// Search algorithm: ga, or to compare with it random, hill-climb, cma-es or panmictic (one large population)
-    algorithm: Algorithm = Algorithm::Ga, of(Run);
+    algorithm: Algorithm = Algorithm::Ga, of(Run).value("ALGORITHM");
     /// Generations after the random first one
     generations: u32 = 140, of(Run).value("G").free(), in |_| 0.0..=1e9;
     /// Individuals on each island
@@ -45,11 +45,11 @@ settings! {
     start: Start = Start::Minimal, of(Vectors).value("HOW").for_problem(Kind::is_network);
 
     /// Task of creatures
-    task: Task => locomotion.task, of(Creatures).tries_bodies().one_of(Task::list);
+    task: Task => locomotion.task, of(Creatures).value("TASK").tries_bodies().one_of(Task::list);
     /// How genes are read: native, lecture or coursework
-    profile: Profile => locomotion.encoding.profile, of(Creatures).tries_bodies();
+    profile: Profile => locomotion.encoding.profile, of(Creatures).value("PROFILE").tries_bodies();
     /// Physics engine: featherstone (our own, ten times as fast) or rapier
-    engine: Engine => locomotion.engine, of(Creatures).tries_bodies();
+    engine: Engine => locomotion.engine, of(Creatures).value("ENGINE").tries_bodies();
     /// Perturbed trials of each genome, and four times as many of one that would be the best: friction, motor strength,
     /// first direction, a push and the step differ, so that luck counts little; 0 for one trial without perturbation
     robustness: u32 => locomotion.robustness.trials,
