@@ -256,8 +256,24 @@ mod tests {
 
     /// Among these each setting finds a value that is not its default.
     const VALUES: [&str; 18] = [
-        "9", "0.9", "true", "random", "sphere", "travel", "lecture", "rapier", "worst", "roulette", "crowding",
-        "uniform", "gaussian", "one-fifth", "torus", "similar", "async", "hill-climb",
+        "9",
+        "0.9",
+        "true",
+        "random",
+        "sphere",
+        "travel",
+        "lecture",
+        "rapier",
+        "worst",
+        "roulette",
+        "crowding",
+        "uniform",
+        "gaussian",
+        "one-fifth",
+        "torus",
+        "similar",
+        "async",
+        "hill-climb",
     ];
 
     #[test]

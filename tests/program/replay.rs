@@ -5,10 +5,10 @@ use crate::support::{TINY, World};
 use islands::archipelago::Champion;
 use islands::creature::encodings::course::Rescaling;
 use islands::creature::{Course, Gene, Profile};
-use islands::runs::subject::Subject;
 use islands::formats::genome_csv;
 use islands::problems::{Locomotion, Robustness, Task};
 use islands::runs::config::Config;
+use islands::runs::subject::Subject;
 use islands::store::{RecordLog, RunDir};
 
 const WALK: Locomotion = Locomotion {

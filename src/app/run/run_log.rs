@@ -1,9 +1,9 @@
 //! What happens in a run: told on the terminal, and kept in the run's log.
 
 use super::progress::Progress;
-use crate::evolution::Problem;
 use crate::runs::Failure;
 use crate::runs::config::Config;
+use crate::runs::subject::Subject;
 use crate::store::{RunDir, file};
 use crate::transport::Sighting;
 use std::sync::Mutex;
@@ -50,7 +50,7 @@ impl RunLog {
     }
 
     /// Shows how far an island has got, `seconds` after the start.
-    pub fn update<P: Problem>(&mut self, problem: &P, sighting: &Sighting<P::Gene>, seconds: f64) {
+    pub fn update<P: Subject>(&mut self, problem: &P, sighting: &Sighting<P::Gene>, seconds: f64) {
         self.progress.update(problem, sighting, seconds);
     }
 

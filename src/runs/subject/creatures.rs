@@ -4,9 +4,9 @@
 use super::Shot;
 use super::Subject;
 use crate::creature::{Creature, Gene};
+use crate::evolution::Fitness;
 #[cfg(feature = "view")]
 use crate::evolution::{Evaluation, Outcome};
-use crate::evolution::{Fitness, Problem};
 use crate::formats::{genome_csv, urdf};
 use crate::problems::{Locomotion, Validation};
 #[cfg(feature = "view")]
