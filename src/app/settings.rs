@@ -255,7 +255,7 @@ mod tests {
     use clap::Parser;
 
     /// Among these each setting finds a value that is not its default.
-    const VALUES: [&str; 18] = [
+    const VALUES: [&str; 19] = [
         "9",
         "0.9",
         "true",
@@ -274,6 +274,7 @@ mod tests {
         "similar",
         "async",
         "hill-climb",
+        "layer:4",
     ];
 
     #[test]

@@ -164,6 +164,12 @@ impl Neat {
         }
     }
 
+    /// All scores that a genome can have on an island, its estimates and, last, its whole score.
+    pub fn possible_scores(&self, genome: &[networks::Gene]) -> Vec<Fitness> {
+        let least = self.scored(genome, Fitness::HIGHEST).fitness;
+        vec![least, self.evaluate(genome).fitness]
+    }
+
     fn scored(&self, genes: &[networks::Gene], best: Fitness) -> Evaluation {
         match self.network(genes) {
             Ok(mut network) => Evaluation::scored(self.score(&mut network, best)),
@@ -237,23 +243,10 @@ impl Problem for Neat {
         self.test == Test::DoublePoleBlind
     }
 
-    fn possible_scores(&self, genome: &[networks::Gene]) -> Vec<Fitness> {
-        let least = self.scored(genome, Fitness::HIGHEST).fitness;
-        vec![least, self.evaluate(genome).fitness]
-    }
-
     /// Hidden neurons and links in use, up to 20 and 100.
     fn features(&self, genes: &[networks::Gene]) -> [f64; 2] {
         let genome = self.genome(genes);
         let in_use = genome.links.iter().filter(|link| link.enabled).count();
         [genome.neurons.len() as f64 / 20.0, in_use as f64 / 100.0].map(|share| share.min(1.0))
-    }
-
-    fn feature_names(&self) -> [&'static str; 2] {
-        ["hidden neurons", "links"]
-    }
-
-    fn unit(&self) -> &'static str {
-        if self.test == Test::DoublePole { "steps" } else { "" }
     }
 }

@@ -1,9 +1,11 @@
 //! Networks: a neuron or a link a line.
 
 use super::Subject;
+use crate::evolution::Fitness;
 use crate::formats::network_csv::{self, Names};
 use crate::networks::Gene;
 use crate::problems::Neat;
+use crate::problems::neat::Test;
 use std::io::{self, Write};
 
 impl Subject for Neat {
@@ -12,6 +14,18 @@ impl Subject for Neat {
 
     fn title(&self) -> String {
         format!("**{}**, networks that grow, solved from {} on", self.test, self.test.solved_from())
+    }
+
+    fn unit(&self) -> &'static str {
+        if self.test == Test::DoublePole { "steps" } else { "" }
+    }
+
+    fn feature_names(&self) -> [&'static str; 2] {
+        ["hidden neurons", "links"]
+    }
+
+    fn possible_scores(&self, genome: &[Gene]) -> Vec<Fitness> {
+        Self::possible_scores(self, genome)
     }
 
     fn read_genome(&self, bytes: &[u8], _dropped: &[usize]) -> Result<Vec<Gene>, String> {
