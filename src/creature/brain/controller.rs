@@ -1,9 +1,8 @@
 //! What moves a body: a motor in each revolute joint, and a brain that commands them.
 
+use super::mind::{Mind, Motor};
 #[cfg(test)]
 use super::reflex::Reflex;
-use super::senses::Senses;
-use super::waveform::Waveform;
 use super::waves::Waves;
 
 /// The motors of a body, and what commands them.
@@ -28,16 +27,6 @@ pub enum Brain {
     Reflex(Reflex),
 }
 
-/// A brain at work, with its state.
-pub trait Mind {
-    /// Whether it makes use of senses. One that does not is given none, which costs less.
-    fn feels(&self) -> bool;
-
-    /// One control update: the speed that each link's motor has to aim at from now on, in rad/s, in `targets_rad_s`, by
-    /// link. What is said of a link without a motor is ignored.
-    fn command(&mut self, senses: &Senses, targets_rad_s: &mut [f64]);
-}
-
 impl Controller {
     /// The brain before its first update.
     pub fn awake(&self) -> Box<dyn Mind + Send> {
@@ -47,19 +36,4 @@ impl Controller {
             Brain::Reflex(reflex) => Box::new(*reflex),
         }
     }
-}
-
-/// A motor: it drives its hinge towards a speed. Its wave is what [`Brain::Waves`] commands it by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motor {
-    /// The form of the wave.
-    pub waveform: Waveform,
-    /// The largest target speed, in rad/s.
-    pub amplitude_rad_s: f64,
-    /// The phase before the first update, in radians.
-    pub phase_start_rad: f64,
-    /// Phase gained at each update, in radians.
-    pub phase_step_rad: f64,
-    /// The largest torque that it can exert, in newton metres.
-    pub torque_nm_max: f64,
 }

@@ -5,13 +5,15 @@
 //! know and [`waves`] is the brain that needs to know nothing. A further brain is a file and a line of [`Brain`].
 
 pub mod controller;
+pub mod mind;
 #[cfg(test)]
 mod reflex;
 pub mod senses;
 pub mod waveform;
 pub mod waves;
 
-pub use controller::{Brain, Controller, Mind, Motor};
+pub use controller::{Brain, Controller};
+pub use mind::{Mind, Motor};
 #[cfg(test)]
 pub use reflex::Reflex;
 pub use senses::{JointSense, Senses};

@@ -1,6 +1,6 @@
 //! A brain for tests alone that feels its joints: it shows that senses come in and commands go out.
 
-use super::controller::Mind;
+use super::mind::Mind;
 use super::senses::Senses;
 
 /// Drives every joint towards an angle, the faster the farther it is away.

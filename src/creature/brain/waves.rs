@@ -1,6 +1,6 @@
 //! The brain that feels nothing: each motor's target speed follows a wave.
 
-use super::controller::{Mind, Motor};
+use super::mind::{Mind, Motor};
 use super::senses::Senses;
 use std::f64::consts::TAU;
 

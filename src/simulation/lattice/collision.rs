@@ -5,8 +5,7 @@
 //! through that list.
 
 use super::body::{Body, CONTACT_DAMPING};
-use super::node::{Load, Node};
-use super::world::Place;
+use super::node::{Load, Node, Place};
 use crate::simulation::lanes::width::Width;
 use nalgebra::Vector3;
 

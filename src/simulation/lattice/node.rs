@@ -4,6 +4,15 @@ use super::body::{Body, CONTACT_DAMPING, Surroundings, Voxel};
 use crate::simulation::lanes::width::{Alone, Width};
 use crate::simulation::lanes::{Everywhere, Real, Vec3};
 
+/// Where a voxel is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// The index of its block.
+    pub block: usize,
+    /// Its lane there.
+    pub lane: usize,
+}
+
 /// A voxel in each lane.
 #[derive(Clone, Copy)]
 pub struct Node<W: Width> {

@@ -9,18 +9,9 @@ use super::body::{Body, Surroundings};
 use super::collision::Collisions;
 use super::link::{Bending, Link};
 use super::motion::{Clock, Motion};
-use super::node::{Constants, Load, Node, shifted_back3};
+use super::node::{Constants, Load, Node, Place, shifted_back3};
 use crate::simulation::lanes::Vec3;
 use crate::simulation::lanes::width::{Width, Work};
-
-/// Where a voxel is kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
-    /// The index of its block.
-    pub block: usize,
-    /// Its lane there.
-    pub lane: usize,
-}
 
 /// A link between two voxels, and where it is kept.
 #[derive(Debug, Clone, Copy)]
