@@ -20,7 +20,7 @@ pub fn write(
     let mut writer = BufWriter::new(file.as_file_mut());
     fill(&mut writer).and_then(|()| writer.flush()).map_err(failed)?;
     drop(writer);
-    file.as_file().sync_all().map_err(failed)?;
+    sync(file.as_file()).map_err(failed)?;
     file.persist(path).map_err(|error| failed(error.error))?;
     sync_name(path)
 }
@@ -32,7 +32,18 @@ pub fn write(
 /// If the file system refuses.
 pub fn sync_name(path: &Path) -> Result<(), StoreError> {
     let folder = File::open(folder_of(path));
-    folder.and_then(|folder| folder.sync_all()).map_err(StoreError::io("make durable", path))
+    folder.and_then(|folder| sync(&folder)).map_err(StoreError::io("make durable", path))
+}
+
+/// Waits until what was written to a file is on the disk with its length, or the names that a folder has. Nothing else in
+/// this module does.
+///
+/// # Errors
+/// If the file system refuses.
+pub fn sync(file: &File) -> std::io::Result<()> {
+    #[cfg(test)]
+    super::power_loss::before_sync(file);
+    file.sync_data()
 }
 
 fn folder_of(path: &Path) -> &Path {

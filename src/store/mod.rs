@@ -17,6 +17,8 @@ pub mod experiment_dir;
 pub mod file;
 pub mod journal;
 pub mod logbook;
+#[cfg(test)]
+mod power_loss;
 pub mod record_log;
 pub mod run_dir;
 mod tail;

@@ -66,7 +66,7 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
         bytes.extend(&body);
         bytes.extend(checksum(&body));
         let end = self.end();
-        let write = self.file.write_all_at(&bytes, end).and_then(|()| self.file.sync_data());
+        let write = self.file.write_all_at(&bytes, end).and_then(|()| atomic::sync(&self.file));
         write.map_err(StoreError::io("append to", &self.path))?;
         self.ends.push(end + bytes.len() as u64);
         Ok(())
@@ -110,7 +110,7 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
         let length = self.file.metadata().map(|status| status.len());
         let cut = length.and_then(|length| match length == end {
             true => Ok(()),
-            false => self.file.set_len(end).and_then(|()| self.file.sync_data()),
+            false => self.file.set_len(end).and_then(|()| atomic::sync(&self.file)),
         });
         cut.map_err(StoreError::io("cut", &self.path))
     }

@@ -9,6 +9,7 @@ use islands::archipelago::{Digest, Step, lockstep};
 use islands::formats::metrics::{self, Row};
 use islands::runs::catalogue::Visitor;
 use islands::runs::config::Config;
+use islands::runs::kind::Kind;
 use islands::runs::subject::Subject;
 use islands::simulation::Engine;
 use islands::store::RunDir;
@@ -151,6 +152,23 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     }
     let advice = "if results are meant to change: ISLANDS_BLESS=1 cargo test --release golden";
     assert!(wrong.is_empty(), "{}\n{advice}", wrong.join("\n"));
+}
+
+/// The gate runs this on processors of other years, too, which it emulates: hence one process and little work.
+#[test]
+fn small_golden_runs_have_their_digest_in_one_process() {
+    let is_small = |path: &PathBuf| {
+        let config = Config::read(path).unwrap();
+        config.problem != Kind::Creatures || config.generations <= 1
+    };
+    let small: Vec<PathBuf> = goldens().into_iter().filter(is_small).collect();
+    let engines: BTreeSet<_> =
+        small.iter().map(|path| Config::read(path).unwrap().engine.to_string()).collect();
+    assert_eq!(engines.len(), Engine::ALL.len(), "both engines are tried");
+    for path in small {
+        let expected = fs::read_to_string(path.with_extension("digest")).unwrap();
+        assert_eq!(in_lockstep(&Config::read(&path).unwrap()).0, expected.trim_end(), "{path:?}");
+    }
 }
 
 /// What a debug build makes of those called so is part of the gate.

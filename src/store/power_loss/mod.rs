@@ -1,0 +1,165 @@
+//! Power may be lost at any moment: what the disk holds then leads to the same end.
+
+mod disk;
+
+pub use disk::before_sync;
+
+use super::{Journal, JournalReader, Logbook, Restored, RunDir};
+use crate::archipelago::{
+    Action, Archipelago, Digest, ExchangeMode, Island, Migration, Protocol, Step, Topology,
+};
+use crate::evolution::Strategy;
+use crate::problems::bits::{Bit, Bits, Pattern};
+use disk::{Disk, Remains};
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::time::Duration;
+use tempfile::TempDir;
+
+const GENERATIONS: u32 = 8;
+const CHECKPOINT_INTERVAL: u32 = 2;
+const PROBLEM: Bits = Bits { pattern: Pattern::OneMax, bits: 12, block: 1 };
+/// All is over in a tenth of it.
+const ROUNDS_MAX: u32 = 1_000;
+
+#[test]
+fn power_that_is_lost_at_any_moment_costs_no_bit() {
+    let archipelago = archipelago(ExchangeMode::Sync);
+    let (digest, remains) = watched(&archipelago);
+    assert!(remains.len() > 200, "{} moments", remains.len());
+    for remains in remains {
+        let folder = laid_out(&remains);
+        let again = evolve(folder.path(), &archipelago);
+        assert_eq!(Digest::of(&again), digest, "{:?}", remains.keys());
+    }
+}
+
+#[test]
+fn where_nobody_waits_power_that_is_lost_costs_nothing_that_was_taken_in() {
+    let archipelago = archipelago(ExchangeMode::Async);
+    let (_, remains) = watched(&archipelago);
+    assert!(remains.len() > 200, "{} moments", remains.len());
+    for remains in remains {
+        let folder = laid_out(&remains);
+        let again = evolve(folder.path(), &archipelago);
+        assert!(again.iter().all(|island| island.generation == GENERATIONS));
+    }
+}
+
+/// Evolves to the end from nothing: what comes of it, and what a loss of power may leave at any moment.
+fn watched(archipelago: &Archipelago) -> (Digest, BTreeSet<Remains>) {
+    let folder = in_memory();
+    Disk::watch(folder.path());
+    let islands = evolve(folder.path(), archipelago);
+    (Digest::of(&islands), Disk::take())
+}
+
+fn archipelago(exchange: ExchangeMode) -> Archipelago {
+    let strategy = Strategy { population: 6, elites: 1, ..Strategy::default() };
+    let migration = Migration { interval: 2, exchange, ..Migration::default() };
+    Archipelago { islands: 2, seed: 5, topology: Topology::Ring, migration, strategy }
+}
+
+fn in_memory() -> TempDir {
+    tempfile::tempdir_in("/dev/shm").expect("there is memory")
+}
+
+fn laid_out(remains: &Remains) -> TempDir {
+    let folder = in_memory();
+    for (path, content) in remains {
+        let path = folder.path().join(path);
+        match content {
+            Some(content) => std::fs::write(path, content),
+            None => std::fs::create_dir(path),
+        }
+        .expect("folders come before what is in them");
+    }
+    folder
+}
+
+/// An island as its process has it.
+struct Process<'a> {
+    protocol: Protocol<'a, Bits>,
+    logbook: Logbook<Bit>,
+}
+
+/// Evolves all islands in turn to the end, from what a folder holds, as their processes do.
+fn evolve(folder: &Path, archipelago: &Archipelago) -> Vec<Island<Bit>> {
+    let dir = RunDir::at(folder);
+    let claim = dir.claim().expect("nobody else has it");
+    claim.make_folders(archipelago.islands).expect("there is room");
+    claim.make_arrivals().expect("there is room");
+    let born = |index| Process::begin(&dir, archipelago, index);
+    let mut processes: Vec<Process> = (0..archipelago.islands).map(born).collect();
+    for round in 0..ROUNDS_MAX {
+        if processes.iter().all(Process::has_arrived) {
+            return processes.iter().filter_map(|it| it.protocol.island().cloned()).collect();
+        }
+        for index in 0..archipelago.islands {
+            let now = Duration::from_secs(round.into());
+            let action = processes[index as usize].protocol.advance(now);
+            act(&dir, archipelago, &mut processes, index, action);
+        }
+    }
+    panic!("it does not end");
+}
+
+impl<'a> Process<'a> {
+    fn begin(dir: &RunDir, archipelago: &'a Archipelago, index: u32) -> Self {
+        let Restored { logbook, island, arrivals, .. } =
+            Logbook::open(dir, archipelago, index, "").expect("what is durable is readable");
+        let protocol = Protocol::begin(&PROBLEM, archipelago, index, GENERATIONS, island);
+        Self { protocol: protocol.with_record(arrivals), logbook }
+    }
+
+    fn has_arrived(&self) -> bool {
+        self.protocol.island().is_some_and(|island| island.generation == GENERATIONS)
+    }
+
+    fn record(&mut self, step: &Step<Bit>) {
+        self.logbook.record(step, 0.0).expect("it comes out the same");
+        if step.island.generation.is_multiple_of(CHECKPOINT_INTERVAL) {
+            self.logbook.save(&step.island).expect("there is room");
+        }
+    }
+}
+
+/// Does what island `index` does next.
+fn act(
+    dir: &RunDir,
+    archipelago: &Archipelago,
+    processes: &mut [Process],
+    index: u32,
+    action: Action<Bit>,
+) {
+    let this = index as usize;
+    match action {
+        Action::Evolved(step) => {
+            processes[this].record(&step);
+            if let Some(outbox) = step.outbox {
+                for neighbour in archipelago.out_neighbours(index) {
+                    processes[neighbour as usize].protocol.receive(outbox.clone());
+                }
+            }
+        }
+        Action::Ask { sources, epoch } => {
+            for source in sources {
+                let asked = Journal::read(&dir.migrations(source), epoch..epoch + 1);
+                for outbox in asked.expect("what is durable is readable") {
+                    processes[this].protocol.receive(outbox);
+                }
+            }
+        }
+        Action::Record(arrivals) => {
+            processes[this].logbook.record_arrivals(&arrivals).expect("there is room");
+        }
+        Action::Recall(outboxes) => {
+            for (source, epoch) in outboxes {
+                let mut journal = JournalReader::of(dir.migrations(source));
+                let outbox = journal.outbox(epoch).expect("what is durable is readable");
+                outbox.into_iter().for_each(|outbox| processes[this].protocol.recall(outbox));
+            }
+        }
+        Action::Wait | Action::Arrived => {}
+    }
+}
