@@ -6,8 +6,14 @@ use std::fs::File;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-/// A folder as a loss of power left it: the contents of each file, by its path within; none for a folder.
-pub type Remains = BTreeMap<PathBuf, Option<Vec<u8>>>;
+/// A folder as a loss of power left it.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+pub struct Remains {
+    /// The contents of each file, by its path within; none for a folder.
+    pub files: BTreeMap<PathBuf, Option<Vec<u8>>>,
+    /// What had been promised to be on the disk: the newest generation of each island.
+    pub promised: BTreeMap<u32, u32>,
+}
 
 thread_local! {
     static WATCHED: RefCell<Option<Disk>> = const { RefCell::new(None) };
@@ -21,13 +27,17 @@ pub struct Disk {
     /// Every file that there ever was, held open, so that no other gets its number.
     files: BTreeMap<u64, File>,
     /// What each file surely holds.
-    contents: BTreeMap<u64, Vec<u8>>,
+    contents: Contents,
     /// Which file surely has which name.
-    names: BTreeMap<PathBuf, Inode>,
+    names: Names,
+    promised: BTreeMap<u32, u32>,
     remains: BTreeSet<Remains>,
 }
 
-#[derive(Clone, Copy)]
+type Names = BTreeMap<PathBuf, Inode>;
+type Contents = BTreeMap<u64, Vec<u8>>;
+
+#[derive(Clone, Copy, PartialEq)]
 enum Inode {
     Folder,
     File(u64),
@@ -37,9 +47,23 @@ impl Disk {
     /// Watches what this thread does in an empty folder until [`Disk::take`].
     pub fn watch(root: &Path) {
         let root = root.canonicalize().expect("it is there");
-        let (files, contents, names) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
-        let disk = Self { root, files, contents, names, remains: BTreeSet::new() };
-        WATCHED.set(Some(disk));
+        WATCHED.set(Some(Self {
+            root,
+            files: BTreeMap::new(),
+            contents: BTreeMap::new(),
+            names: BTreeMap::new(),
+            promised: BTreeMap::new(),
+            remains: BTreeSet::new(),
+        }));
+    }
+
+    /// From now on a generation of an island may not be lost, if anybody watches.
+    pub fn promise(island: u32, generation: u32) {
+        WATCHED.with_borrow_mut(|disk| {
+            disk.iter_mut().for_each(|disk| {
+                disk.promised.insert(island, generation);
+            });
+        });
     }
 
     /// All that the watched folder may be after a loss of power at any moment so far.
@@ -52,9 +76,10 @@ impl Disk {
         let (names, contents) = self.now();
         let torn = self.mixed(&contents, |old, new| [old, &new[..new.len() / 2]].concat());
         let zeroed = self.mixed(&contents, |old, new| [old, &vec![0; new.len()][..]].concat());
-        for names in [&self.names, &names] {
-            for contents in [&self.contents, &contents, &torn, &zeroed] {
-                self.remains.insert(remains(names, contents));
+        for names in mixtures(&self.names, &names) {
+            for contents in mixtures(&self.contents, &contents).iter().chain([&torn, &zeroed]) {
+                let files = files(&names, contents);
+                self.remains.insert(Remains { files, promised: self.promised.clone() });
             }
         }
         let status = file.metadata().expect("it is open");
@@ -66,7 +91,7 @@ impl Disk {
     }
 
     /// What a program sees.
-    fn now(&mut self) -> (BTreeMap<PathBuf, Inode>, BTreeMap<u64, Vec<u8>>) {
+    fn now(&mut self) -> (Names, Contents) {
         let (mut names, mut contents) = (BTreeMap::new(), BTreeMap::new());
         for path in all_within(&self.root) {
             let file = File::open(&path).expect("it is there");
@@ -85,11 +110,7 @@ impl Disk {
     }
 
     /// What files hold whose new ends came to the disk as `end` makes them of the durable beginning and the rest.
-    fn mixed(
-        &self,
-        now: &BTreeMap<u64, Vec<u8>>,
-        end: impl Fn(&[u8], &[u8]) -> Vec<u8>,
-    ) -> BTreeMap<u64, Vec<u8>> {
+    fn mixed(&self, now: &Contents, end: impl Fn(&[u8], &[u8]) -> Vec<u8>) -> Contents {
         let mut mixed = self.contents.clone();
         for (&number, new) in now {
             let old = mixed.entry(number).or_default();
@@ -100,7 +121,7 @@ impl Disk {
     }
 
     /// The names in a folder are durable now.
-    fn sync_names(&mut self, folder: u64, now: BTreeMap<PathBuf, Inode>) {
+    fn sync_names(&mut self, folder: u64, now: Names) {
         let is_in = |path: &PathBuf| {
             let parent = self.root.join(path.parent().unwrap_or(Path::new("")));
             std::fs::metadata(parent).is_ok_and(|status| status.ino() == folder)
@@ -115,8 +136,28 @@ pub fn before_sync(file: &File) {
     WATCHED.with_borrow_mut(|disk| disk.iter_mut().for_each(|disk| disk.before_sync(file)));
 }
 
+/// The old and the new, and either with one change more or less: changes may come to the disk in any order.
+fn mixtures<K: Ord + Clone, V: PartialEq + Clone>(
+    old: &BTreeMap<K, V>,
+    new: &BTreeMap<K, V>,
+) -> Vec<BTreeMap<K, V>> {
+    let keys: BTreeSet<&K> = old.keys().chain(new.keys()).collect();
+    let mut mixtures = vec![old.clone(), new.clone()];
+    for key in keys.into_iter().filter(|key| old.get(key) != new.get(key)) {
+        for (base, other) in [(old, new), (new, old)] {
+            let mut mixture = base.clone();
+            match other.get(key) {
+                Some(value) => mixture.insert(key.clone(), value.clone()),
+                None => mixture.remove(key),
+            };
+            mixtures.push(mixture);
+        }
+    }
+    mixtures
+}
+
 /// Only what lies in folders that are there can be found again.
-fn remains(names: &BTreeMap<PathBuf, Inode>, contents: &BTreeMap<u64, Vec<u8>>) -> Remains {
+fn files(names: &Names, contents: &Contents) -> BTreeMap<PathBuf, Option<Vec<u8>>> {
     let is_found = |path: &Path| {
         let mut folders = path.ancestors().skip(1).filter(|folder| !folder.as_os_str().is_empty());
         folders.all(|folder| names.contains_key(folder))

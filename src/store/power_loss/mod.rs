@@ -11,7 +11,7 @@ use crate::archipelago::{
 use crate::evolution::Strategy;
 use crate::problems::bits::{Bit, Bits, Pattern};
 use disk::{Disk, Remains};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 use tempfile::TempDir;
@@ -29,8 +29,8 @@ fn power_that_is_lost_at_any_moment_costs_no_bit() {
     assert!(remains.len() > 200, "{} moments", remains.len());
     for remains in remains {
         let folder = laid_out(&remains);
-        let again = evolve(folder.path(), &archipelago);
-        assert_eq!(Digest::of(&again), digest, "{:?}", remains.keys());
+        let again = evolve(folder.path(), &archipelago, &remains.promised);
+        assert_eq!(Digest::of(&again), digest, "{:?}", remains.files.keys());
     }
 }
 
@@ -41,7 +41,7 @@ fn where_nobody_waits_power_that_is_lost_costs_nothing_that_was_taken_in() {
     assert!(remains.len() > 200, "{} moments", remains.len());
     for remains in remains {
         let folder = laid_out(&remains);
-        let again = evolve(folder.path(), &archipelago);
+        let again = evolve(folder.path(), &archipelago, &remains.promised);
         assert!(again.iter().all(|island| island.generation == GENERATIONS));
     }
 }
@@ -50,7 +50,7 @@ fn where_nobody_waits_power_that_is_lost_costs_nothing_that_was_taken_in() {
 fn watched(archipelago: &Archipelago) -> (Digest, BTreeSet<Remains>) {
     let folder = in_memory();
     Disk::watch(folder.path());
-    let islands = evolve(folder.path(), archipelago);
+    let islands = evolve(folder.path(), archipelago, &BTreeMap::new());
     (Digest::of(&islands), Disk::take())
 }
 
@@ -66,7 +66,7 @@ fn in_memory() -> TempDir {
 
 fn laid_out(remains: &Remains) -> TempDir {
     let folder = in_memory();
-    for (path, content) in remains {
+    for (path, content) in &remains.files {
         let path = folder.path().join(path);
         match content {
             Some(content) => std::fs::write(path, content),
@@ -83,14 +83,23 @@ struct Process<'a> {
     logbook: Logbook<Bit>,
 }
 
-/// Evolves all islands in turn to the end, from what a folder holds, as their processes do.
-fn evolve(folder: &Path, archipelago: &Archipelago) -> Vec<Island<Bit>> {
+/// Evolves all islands in turn to the end, from what a folder holds, as their processes do. It holds at least what was
+/// promised: a generation of each island.
+fn evolve(
+    folder: &Path,
+    archipelago: &Archipelago,
+    promised: &BTreeMap<u32, u32>,
+) -> Vec<Island<Bit>> {
     let dir = RunDir::at(folder);
     let claim = dir.claim().expect("nobody else has it");
     claim.make_folders(archipelago.islands).expect("there is room");
     claim.make_arrivals().expect("there is room");
     let born = |index| Process::begin(&dir, archipelago, index);
     let mut processes: Vec<Process> = (0..archipelago.islands).map(born).collect();
+    for (&island, promised) in promised {
+        let kept = processes[island as usize].protocol.island().map(|island| island.generation);
+        assert!(kept.as_ref() >= Some(promised), "island {island} lost generation {promised}");
+    }
     for round in 0..ROUNDS_MAX {
         if processes.iter().all(Process::has_arrived) {
             return processes.iter().filter_map(|it| it.protocol.island().cloned()).collect();
@@ -120,6 +129,7 @@ impl<'a> Process<'a> {
         self.logbook.record(step, 0.0).expect("it comes out the same");
         if step.island.generation.is_multiple_of(CHECKPOINT_INTERVAL) {
             self.logbook.save(&step.island).expect("there is room");
+            Disk::promise(step.island.index, step.island.generation);
         }
     }
 }
