@@ -58,6 +58,8 @@ def of_run(folder: Path, seconds: float | None = None) -> Claim:
         summary = json.loads((folder / "summary.json").read_text())
     except (OSError, ValueError) as error:
         raise NoClaim(f"{folder} is no run that has finished: {error}") from error
+    # The file of an old run has no sections.
+    config |= config.get("creatures", {})
     if config.get("problem", "creatures") != "creatures":
         raise NoClaim(f"{folder} evolved no creatures but {config['problem']}")
     genome = folder / "champion.csv"

@@ -1,8 +1,8 @@
 //! Genome and body files that the user names.
 
-use super::body_args::ChangeArgs;
-use super::console::say;
-use super::table::harmless;
+use crate::app::args::body_args::ChangeArgs;
+use crate::app::console::say;
+use crate::app::table::harmless;
 use crate::creature::{Creature, Gene, Reading};
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, network_csv, vector_csv};

@@ -1,41 +1,26 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! `cli`, `settings`, `terrain_args` and `body_args` are what can be said. `run` is the launcher: it starts
-//! a process for each island (`island`) and one that watches (`monitor`), tied to it by `parent_link`: they die with it,
-//! and stop when it closes their standard input. `experiment` compares settings over many runs in this process. `verify`
-//! looks whether a run's folder holds what it claims, `clean` removes what a killed launcher left; `evaluate`, `inspect`
-//! and `replay` look at single `genomes` and bodies, `import` takes them in and `export` takes them elsewhere. `pedigree`
-//! puts ancestries into words, and `viewer` opens a viewer. `console` prints and reads the clock, `table` lays out.
-//! What a run is, [`crate::runs`] knows.
+//! [`args`] is what can be said. [`commands`] has a file or a folder for each verb, [`processes`] has those that make up a
+//! run. Both use the rest: `genomes` reads those that are named, `pedigree` puts ancestries into words, `viewer` opens a
+//! viewer, `console` prints and reads the clock, `table` lays out. What a run is, [`crate::runs`] knows.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
-mod body_args;
-mod clean;
-mod cli;
+mod args;
+mod commands;
 mod console;
-mod evaluate;
-mod experiment;
-mod export;
 mod genomes;
-mod import;
-mod inspect;
-mod island;
-mod monitor;
-mod parent_link;
 #[cfg(feature = "view")]
 mod pedigree;
-mod replay;
-mod run;
-mod settings;
+mod processes;
 mod table;
-mod terrain_args;
-mod verify;
 #[cfg(feature = "view")]
 mod viewer;
 
-use cli::Command;
+use args::cli::{self, Command};
+use commands::{clean, evaluate, experiment, export, import, inspect, replay, verify};
+use processes::{island, monitor, run};
 use std::process::ExitCode;
 
 /// Parses the command line, does what it says and returns the program's exit code: 0, 1 if something failed,

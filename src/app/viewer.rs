@@ -1,6 +1,6 @@
 //! The viewer is a program of its own, which the user may have.
 
-use super::console::say;
+use crate::app::console::say;
 use crate::view::VIEWER_VERSION;
 use std::io::ErrorKind;
 use std::os::unix::process::CommandExt;
