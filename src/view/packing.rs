@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(events, [4, ROWS]);
         // Those of generations that have a row, and that of the last one.
         for path in ["/fitness/best/0", "/diversity/0", "/population/0"] {
-            assert_eq!(rows(path), [2_048 + 2], "{path}");
+            assert_eq!(rows(path), [1_280 + 2], "{path}");
         }
         let curve = chunks.iter().find(|chunk| chunk.num_rows() == ROWS).unwrap();
         assert!(curve.timelines().values().all(|times| times.is_sorted()));
