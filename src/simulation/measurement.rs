@@ -22,14 +22,48 @@ pub struct Measurement {
     /// On a terrain, the height of the body's lowest point at the same moments, but at most that of the ground below
     /// its centre of mass, in metres: what is in the air, or leans on a wall, is no higher than what it is above.
     pub heights_m: Vec<f64>,
-    /// Where every part was at the same moments: a list a moment, in the order of the body's [`assembly`].
-    pub poses: Vec<Vec<Isometry3<f64>>>,
+    /// Where every part was at the same moments.
+    pub poses: Poses,
     /// How far the body reaches from its root at rest, in metres.
     pub extent_m: f64,
 }
 
 /// Positions on the track of the centre of mass are this far apart, in seconds.
 pub const TRACK_SAMPLE_S: f64 = 0.1;
+
+/// Where the parts of a body were, moment by moment; the parts are in the order of the body's
+/// [`assembly`](super::assembly).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Poses {
+    parts: usize,
+    /// Those of the first moment, then those of the next.
+    places: Vec<Isometry3<f64>>,
+}
+
+impl Poses {
+    /// None yet, of a body of at least one part. For so many moments it will ask for no more memory.
+    pub fn new(parts: usize, moments: usize) -> Self {
+        Self { parts, places: Vec::with_capacity(parts * moments) }
+    }
+
+    /// Adds a moment, and returns it.
+    pub fn push(&mut self, poses: impl Iterator<Item = Isometry3<f64>>) -> &[Isometry3<f64>] {
+        let start = self.places.len();
+        self.places.extend(poses);
+        debug_assert_eq!(self.places.len(), start + self.parts, "every part is somewhere");
+        &self.places[start..]
+    }
+
+    /// The number of parts.
+    pub fn parts(&self) -> usize {
+        self.parts
+    }
+
+    /// The places of all parts, moment by moment.
+    pub fn moments(&self) -> impl DoubleEndedIterator<Item = &[Isometry3<f64>]> + Clone {
+        self.places.chunks_exact(self.parts)
+    }
+}
 
 impl Measurement {
     /// That of the only body of a trial.

@@ -42,7 +42,7 @@ pub use abreast::{Abreast, at_a_time, simulate_abreast, simulate_each};
 pub use assembly::Entrant;
 pub use engine::Engine;
 pub use failure::Failure;
-pub use measurement::{Measurement, TRACK_SAMPLE_S};
+pub use measurement::{Measurement, Poses, TRACK_SAMPLE_S};
 pub use medium::Medium;
 pub use perturbation::Perturbation;
 pub use run::{CannotCollide, Meeting, film, film_together, simulate};

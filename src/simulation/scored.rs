@@ -2,7 +2,7 @@
 
 use super::assembly::{Assembly, Member};
 use super::feels;
-use super::measurement::Measurement;
+use super::measurement::{Measurement, Poses};
 use super::stability::{Guard, Ledger};
 use super::terrain::Ground;
 use super::trial::Trial;
@@ -17,7 +17,7 @@ pub struct Scored {
     centre_first_m: Vector3<f64>,
     track_m: Vec<Vector2<f64>>,
     heights_m: Vec<f64>,
-    poses: Vec<Vec<Isometry3<f64>>>,
+    poses: Poses,
     ledger: Ledger,
     mind: Box<dyn Mind + Send>,
     /// Steps from one control update to the next.
@@ -37,13 +37,15 @@ impl Scored {
         creature: &Creature,
         trial: &Trial,
     ) -> Self {
-        let poses = world::part_poses(world, body);
         let parts = &assembly.parts[body.parts.clone()];
-        let centre_first_m = world::centre_of(&poses, parts);
-        let mut track_m = Vec::with_capacity(trial.samples() + 1);
+        let moments = trial.samples() + 1;
+        let mut poses = Poses::new(parts.len(), moments);
+        let now = poses.push(world::part_poses(world, body));
+        let centre_first_m = world::centre_of(now, parts);
+        let mut track_m = Vec::with_capacity(moments);
         track_m.push(centre_first_m.xy());
         let (sample_steps, standing) = (trial.sample_steps(), Vector3::zeros());
-        let heights_m = height_m(&poses, assembly, body, trial.ground, &centre_first_m);
+        let heights_m = height_m(now, assembly, body, trial.ground, &centre_first_m);
         let controller = &creature.controller;
         let links = controller.motors.iter().zip(&assembly.places[body.links.clone()]).enumerate();
         let driven = links.filter_map(|(link, (motor, place))| motor.map(|_| (link, place.part)));
@@ -51,7 +53,7 @@ impl Scored {
             centre_first_m,
             track_m,
             heights_m: heights_m.into_iter().collect(),
-            poses: vec![poses],
+            poses,
             ledger: Ledger::new(trial, sample_steps, centre_first_m, standing),
             mind: controller.awake(),
             control_steps: trial.steps_in(controller.period_s),
@@ -106,11 +108,10 @@ impl Scored {
         body: &Member,
         world: &impl World,
     ) -> Result<(), Failure> {
-        let poses = world::part_poses(world, body);
-        let centre_m = world::centre_of(&poses, &assembly.parts[body.parts.clone()]);
+        let poses = self.poses.push(world::part_poses(world, body));
+        let centre_m = world::centre_of(poses, &assembly.parts[body.parts.clone()]);
         self.track_m.push(centre_m.xy());
-        self.heights_m.extend(height_m(&poses, assembly, body, trial.ground, &centre_m));
-        self.poses.push(poses);
+        self.heights_m.extend(height_m(poses, assembly, body, trial.ground, &centre_m));
         if trial.guards.keeps_ledger { self.ledger.enter(centre_m) } else { Ok(()) }
     }
 
@@ -132,7 +133,7 @@ impl Scored {
             path_m: track_m.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum(),
             track_m,
             heights_m: std::mem::take(&mut self.heights_m),
-            poses: std::mem::take(&mut self.poses),
+            poses: std::mem::replace(&mut self.poses, Poses::new(body.parts.len(), 0)),
             extent_m: creature.morphology.extent_m(),
         }
     }

@@ -53,8 +53,11 @@ pub trait World {
 }
 
 /// Where every part of a body is.
-pub fn part_poses(world: &(impl World + ?Sized), body: &Member) -> Vec<Isometry3<f64>> {
-    body.parts.clone().map(|part| world.world_from_part(part)).collect()
+pub fn part_poses(
+    world: &(impl World + ?Sized),
+    body: &Member,
+) -> impl Iterator<Item = Isometry3<f64>> {
+    body.parts.clone().map(|part| world.world_from_part(part))
 }
 
 /// The centre of mass of a whole body, in metres.
@@ -63,7 +66,8 @@ pub fn centre_of_mass(
     assembly: &Assembly,
     body: &Member,
 ) -> Vector3<f64> {
-    centre_of(&part_poses(world, body), &assembly.parts[body.parts.clone()])
+    let poses: Vec<_> = part_poses(world, body).collect();
+    centre_of(&poses, &assembly.parts[body.parts.clone()])
 }
 
 /// The centre of mass of parts that are in these places, in metres.

@@ -42,7 +42,7 @@ pub fn sync_name(path: &Path) -> Result<(), StoreError> {
 /// If the file system refuses.
 pub fn sync(file: &File) -> std::io::Result<()> {
     #[cfg(test)]
-    super::power_loss::before_sync(file);
+    super::watched_disk::before_sync(file);
     file.sync_data()
 }
 

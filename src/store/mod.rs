@@ -22,6 +22,8 @@ mod power_loss;
 pub mod record_log;
 pub mod run_dir;
 mod tail;
+#[cfg(test)]
+mod watched_disk;
 
 pub use checkpoint::Checkpoint;
 pub use checkpoints::Checkpoints;

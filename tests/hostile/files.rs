@@ -15,7 +15,7 @@ fn unfriendly(world: &World) -> Vec<&'static str> {
     symlink("circle", world.path("circle")).unwrap();
     File::create(world.path("sparse")).unwrap().set_len(1 << 30).unwrap();
     world.write("latin", b"\xe9\xe8\xea");
-    world.write("escape", "task = \"\\u001b[2J\"");
+    world.write("escape", "engine = \"\\u001b[2J\"");
     world.write("line", "0.5,".repeat(200_000));
     world.write("nested", format!("genes = {}", "[".repeat(100_000)));
     world.write("dotted", format!("{}a = 1", "a.".repeat(100_000)));
@@ -110,7 +110,7 @@ fn an_unfriendly_configuration_is_refused_with_a_sentence_and_soon() {
         cannot use circle: Too many levels of symbolic links (os error 40); name a file such as a run's run.toml
         cannot use sparse: it is larger than 1048576 bytes; name a file such as a run's run.toml
         cannot use latin: it is not text; name a file such as a run's run.toml
-        cannot use escape: line 1: unknown variant ` [2J`, expected one of `walk`, `travel`, `course`, `climb`
+        cannot use escape: line 1: unknown variant ` [2J`, expected `rapier` or `featherstone`
         cannot use line: line 1: key with no value, expected `=`
         cannot use nested: line 1: cannot recurse further; max recursion depth met
         cannot use dotted: recursion limit

@@ -68,12 +68,12 @@ fn impossible_wishes_for_a_run_are_refused_with_a_sentence_that_says_what_to_do(
 
 #[test]
 fn an_unknown_name_is_refused_with_those_that_are_known() {
-    let wishes = ["--task swim", "--profile mine", "--selection luck", "--selection rank:3"];
+    let wishes = ["--engine bullet", "--profile mine", "--selection luck", "--selection rank:3"];
     refused(
         &World::new(),
         wishes,
         expect![[r#"
-            invalid value 'swim' for '--task <TASK>': unknown task “swim”: choose one of walk, travel, course, climb
+            invalid value 'bullet' for '--engine <ENGINE>': unknown engine “bullet”: choose one of rapier, featherstone
             invalid value 'mine' for '--profile <PROFILE>': unknown profile “mine”: choose one of native, lecture, coursework
             invalid value 'luck' for '--selection <SCHEME>': unknown selection “luck”: choose roulette, sus, tournament:3, rank:1.8 or truncation:0.3
             invalid value 'rank:3' for '--selection <SCHEME>': rank takes a number from 1 to 2"#]],

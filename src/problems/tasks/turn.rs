@@ -6,8 +6,8 @@
 use super::definition::Definition;
 use super::walk;
 use crate::problems::progress;
-use crate::simulation::Measurement;
-use nalgebra::{Isometry3, UnitQuaternion};
+use crate::simulation::{Measurement, Poses};
+use nalgebra::UnitQuaternion;
 use std::f64::consts::TAU;
 
 pub const DEFINITION: Definition =
@@ -15,19 +15,19 @@ pub const DEFINITION: Definition =
 
 /// The turns that every part keeps, to the side that is worth more.
 fn turns(measured: &Measurement) -> f64 {
-    let parts = measured.poses.first().map_or(0, Vec::len);
     let to_side = |side: f64| {
-        let kept = (0..parts).map(|part| progress::kept(&course(&measured.poses, part, side)));
+        let kept = (0..measured.poses.parts()).map(|part| progress::kept(&course(&measured.poses, part, side)));
         kept.reduce(f64::min).unwrap_or(0.0)
     };
     to_side(1.0).max(to_side(-1.0)).max(0.0)
 }
 
 /// How far a part has turned to a side at each moment, in turns.
-fn course(poses: &[Vec<Isometry3<f64>>], part: usize, side: f64) -> Vec<f64> {
+fn course(poses: &Poses, part: usize, side: f64) -> Vec<f64> {
     let mut turned = 0.0;
-    let steps = poses.windows(2).map(|pair| {
-        turned += side * about_vertical_rad(&pair[0][part].rotation, &pair[1][part].rotation) / TAU;
+    let moments = poses.moments().map(|parts| parts[part].rotation);
+    let steps = moments.clone().zip(moments.skip(1)).map(|(from, to)| {
+        turned += side * about_vertical_rad(&from, &to) / TAU;
         turned
     });
     std::iter::once(0.0).chain(steps).collect()
@@ -48,7 +48,7 @@ fn about_vertical_rad(from: &UnitQuaternion<f64>, to: &UnitQuaternion<f64>) -> f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{Vector3, vector};
+    use nalgebra::{Isometry3, Vector3, vector};
 
     /// What a body is worth whose parts are turned by these rotation vectors, in turns, at a time in seconds.
     fn worth<const N: usize>(turned: impl Fn(f64) -> [Vector3<f64>; N]) -> f64 {
@@ -56,7 +56,10 @@ mod tests {
             let rotation = UnitQuaternion::from_scaled_axis(turns * TAU);
             Isometry3::from_parts(Vector3::zeros().into(), rotation)
         };
-        let moments = (0..=80).map(|i| turned(f64::from(i) * 0.1).map(pose).to_vec());
+        let mut poses = Poses::new(N, 81);
+        for i in 0..=80 {
+            poses.push(turned(f64::from(i) * 0.1).map(pose).into_iter());
+        }
         let measured = Measurement {
             root_first_m: Vector3::zeros(),
             root_last_m: Vector3::zeros(),
@@ -65,7 +68,7 @@ mod tests {
             path_m: 0.0,
             track_m: Vec::new(),
             heights_m: Vec::new(),
-            poses: moments.collect(),
+            poses,
             extent_m: 1.0,
         };
         turns(&measured)

@@ -117,7 +117,7 @@ fn a_brain_that_feels_its_joints_brings_them_where_it_wants_them() {
     for engine in Engine::ALL {
         let trial = Trial { scored_s: 0.8, ..SPACE };
         let measured = simulate(&body, &trial, engine).unwrap();
-        for (moment, poses) in (0..).zip(&measured.poses).skip(1) {
+        for (moment, poses) in (0..).zip(measured.poses.moments()).skip(1) {
             let bent = poses[0].rotation.inverse() * poses[1].rotation;
             let left_rad = 0.5 - bent.angle();
             // A command takes effect a step after the moment that is measured.
@@ -136,7 +136,7 @@ fn a_brain_that_feels_the_ground_can_stop_there() {
     for engine in Engine::ALL {
         let trial = Trial { settle_s: 0.5, scored_s: 0.8, ..TRIAL };
         let measured = simulate(&body, &trial, engine).unwrap();
-        let last = measured.poses.last().unwrap();
+        let last = measured.poses.moments().next_back().unwrap();
         let bent_rad = (last[0].rotation.inverse() * last[1].rotation).angle();
         assert!(bent_rad < 0.01, "{engine}: {bent_rad} rad");
     }

@@ -1,16 +1,12 @@
 //! Power may be lost at any moment: what the disk holds then leads to the same end.
 
-mod disk;
-
-pub use disk::before_sync;
-
+use super::watched_disk::{Disk, Remains};
 use super::{Journal, JournalReader, Logbook, Restored, RunDir};
 use crate::archipelago::{
     Action, Archipelago, Digest, ExchangeMode, Island, Migration, Protocol, Step, Topology,
 };
 use crate::evolution::Strategy;
 use crate::problems::bits::{Bit, Bits, Pattern};
-use disk::{Disk, Remains};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
