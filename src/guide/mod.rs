@@ -13,6 +13,7 @@
 //! | [`interchange`] | How do genomes and bodies come in and go out? |
 //! | [`files`] | What does a run leave on disk? |
 //! | [`watching`] | What does the viewer show, and what does it cost? |
+//! | [`adding`] | Where do I add a task, a setting, a scheme, a brain? |
 
 // A page is read in two places. Its links end in definitions that lead to files, for those who read the file itself.
 // Here `links.md` comes before each page and leads the same names to modules: the first definition of a name counts.
@@ -60,3 +61,7 @@ pub mod files {}
 #[doc = include_str!("links.md")]
 #[doc = include_str!("watching.md")]
 pub mod watching {}
+
+#[doc = include_str!("links.md")]
+#[doc = include_str!("adding.md")]
+pub mod adding {}
