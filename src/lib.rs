@@ -44,7 +44,8 @@
 //!   selected on, in both engines ([`problems::validation`]).
 //! - **Floors 0 to 4 touch no clock, file or process**, and all transcendental functions on the way to a
 //!   fitness are libm's.
-//! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`], which physics calls a [`simulation::Failure`], and the worst fitness.
+//! - **A fitness is never NaN.** What cannot be scored has a named [`evolution::Outcome`], which physics calls a
+//!   [`simulation::Failure`], and the worst fitness.
 //! - **Each heavy dependency has one importer**: rapier3d `simulation`, iceoryx2 `transport`, bincode `store`,
 //!   rerun `view`, plotters `formats`, clap `app`.
 //!

@@ -1,7 +1,8 @@
 //! What NEAT needs to pass its tests, beside the figures of its paper.
 //!
 //! `cargo bench --bench neat -- xor --seeds 100` runs so many seeds of a test, in one process and one after the other on
-//! each thread, until it is passed or its budget is spent. Runs of the gate try none: they are long.
+//! each thread, until it is passed or its budget is spent; `--first 101` begins with that seed. Runs of the gate try none:
+//! they are long.
 
 #![allow(clippy::print_stdout, reason = "it prints its table")]
 
@@ -43,7 +44,7 @@ fn main() {
     let number = |flag: &str, usual: u64| {
         said(flag).and_then(|rest| rest.first()?.parse().ok()).unwrap_or(usual)
     };
-    let seeds = number("--seeds", 50);
+    let (first, seeds) = (number("--first", 1), number("--seeds", 50));
     let budget = number("--budget", 100_000);
     let only: Vec<String> = said("--variant").map(|rest| vec![rest[0].clone()]).unwrap_or_default();
     let more = said("--set").map(|rest| rest[0].replace(';', "\n")).unwrap_or_default();
@@ -58,8 +59,10 @@ fn main() {
             table.extend(toml::from_str::<toml::Table>(over).expect("it is TOML"));
         }
         let config = Config::of_table(table, Wish::default()).expect("these are settings");
-        let runs: Vec<End> =
-            (1..=seeds).into_par_iter().map(|seed| run(test, &config, seed, budget)).collect();
+        let runs: Vec<End> = (first..first + seeds)
+            .into_par_iter()
+            .map(|seed| run(test, &config, seed, budget))
+            .collect();
         println!("{}", row(name, test, &config, &runs));
     }
 }

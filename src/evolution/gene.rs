@@ -12,8 +12,8 @@ pub trait Gene: Pod + PartialEq + Debug + Send + Sync + Serialize + DeserializeO
     /// Whether a gene that came from a file or another process may be used.
     fn is_valid(&self) -> bool;
 
-    /// The real numbers that it is made of, each from 0 to [`VALUE_MAX`](super::variation::values::VALUE_MAX), always as many;
-    /// none if it is made of something else.
+    /// The real numbers that it is made of, each from 0 to [`VALUE_MAX`](super::variation::values::VALUE_MAX), always
+    /// as many; none if it is made of something else.
     fn values(&self) -> &[f64] {
         &[]
     }

@@ -306,8 +306,8 @@ pub fn evaluate<P: Problem>(
     Brood { population, effort, panicked }
 }
 
-/// Phase: gives the best of a population its whole score, and whoever is the best then. A judge only lowers scores, so
-/// that few have to be judged before one of them is the best.
+/// Phase: gives the best of a population its whole score, and whoever is the best then. A judge lowers scores, or
+/// confirms the best, so that few have to be judged before one of them is the best.
 pub fn judge_best<P: Problem>(problem: &P, population: &mut Population<P::Gene>) {
     if !problem.has_estimates() {
         return;

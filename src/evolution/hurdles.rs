@@ -1,8 +1,9 @@
 //! How far an evaluation has to go: racing (Maron & Moore 1994), with hurdles that are part of an island's state.
 //!
 //! A score that holds is dear: many trials, maybe a second engine. Most offspring need none of that to be known as no
-//! better than those who are there, and only who would be the best needs all of it. So an evaluation may end early, with an estimate, where the whole score would
-//! change nothing that matters: who is the best of its island, and so its champion. Who travels gets a whole score then.
+//! better than those who are there, and only who would be the best needs all of it. So an evaluation may end early,
+//! with an estimate, where the whole score would change nothing that matters: who is the best of its island, and so
+//! its champion. Who travels gets a whole score then.
 //!
 //! What is above all hurdles has its whole score, which is a pure function of the genome. Hurdles are functions of the
 //! residents, so that an evolution in other processes or on other threads has the same ones.

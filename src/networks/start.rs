@@ -36,6 +36,17 @@ pub enum Start {
 }
 
 impl Start {
+    /// The most genes that a first genome has.
+    pub fn genes_max(self, sockets: Sockets) -> usize {
+        let (sources, outputs) = (sockets.sources().count(), sockets.outputs().count());
+        let of_layer = |neurons: u32| neurons as usize * (1 + sources + outputs);
+        match self {
+            Start::Minimal => sources * outputs,
+            Start::Layer { neurons } => of_layer(neurons),
+            Start::Random { neurons } => of_layer(neurons) + sources * outputs,
+        }
+    }
+
     /// Draws a genome.
     pub fn genome(self, sockets: Sockets, hidden: &[Function], rng: &mut Stream) -> Genome {
         let neurons = match self {

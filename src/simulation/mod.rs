@@ -1,12 +1,12 @@
 //! Bodies in motion: a trial under an engine.
 //!
-//! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it, or of several. An [`Engine`] moves it
-//! through the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`], on a [`terrain`] or a plane and through a
-//! [`medium`]. Its brain gets what it [`feels`] and commands its motors; [`settling`] brings it to rest before it is scored,
-//! [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it, and [`measurement`] what a task scores.
-//! [`perturbation`] says what may differ from one trial of a body to the next. An attempt is a trial under way;
-//! [`simulate`] runs one, [`film_together`] one of several bodies, and several trials of one body go abreast, which is
-//! faster and changes no bit.
+//! A [`Trial`] says how a body is tried and [`assembly`] what physics sees of it, or of several. An [`Engine`] moves
+//! it through the [`world`], [`Engine::Rapier`] or [`Engine::Featherstone`], on a [`terrain`] or a plane and through a
+//! [`medium`]. Its brain gets what it [`feels`] and commands its motors; [`settling`] brings it to rest before it is
+//! scored, [`stability`] ends what has blown up, [`trajectory`] is what can be seen of it, and [`measurement`] what a
+//! task scores. [`perturbation`] says what may differ from one trial of a body to the next. An attempt is a trial
+//! under way; [`simulate`] runs one, [`film_together`] one of several bodies, and several trials of one body go
+//! abreast, which is faster and changes no bit.
 //!
 //! Architecture invariant: files import from one another in one direction, and nothing here knows what a trial is worth.
 

@@ -13,8 +13,8 @@ const RISE_MAX_EXTENTS: f64 = 2.0;
 /// … and this much, in metres.
 const RISE_MAX_M: f64 = 1.0;
 
-/// The bounds of one body in a trial. Heights are above the ground: the highest that is no farther away than the body reaches, so
-/// that who walks over a cliff was not launched.
+/// The bounds of one body in a trial. Heights are above the ground: the highest that is no farther away than the body
+/// reaches, so that who walks over a cliff was not launched.
 pub struct Guard {
     guards: Guards,
     height_max_m: f64,

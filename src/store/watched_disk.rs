@@ -68,25 +68,33 @@ impl Disk {
 
     /// All that the watched folder may be after a loss of power at any moment so far.
     pub fn take() -> BTreeSet<Remains> {
-        WATCHED.take().expect("it was watched").remains
+        let mut disk = WATCHED.take().expect("it was watched");
+        let (names, contents) = disk.now();
+        disk.lose(&names, &contents);
+        disk.remains
     }
 
     /// What is not durable yet may be lost now, as a whole or in part; after that, what `file` holds is durable.
     fn before_sync(&mut self, file: &File) {
         let (names, contents) = self.now();
-        let torn = self.mixed(&contents, |old, new| [old, &new[..new.len() / 2]].concat());
-        let zeroed = self.mixed(&contents, |old, new| [old, &vec![0; new.len()][..]].concat());
-        for names in mixtures(&self.names, &names) {
-            for contents in mixtures(&self.contents, &contents).iter().chain([&torn, &zeroed]) {
-                let files = files(&names, contents);
-                self.remains.insert(Remains { files, promised: self.promised.clone() });
-            }
-        }
+        self.lose(&names, &contents);
         let status = file.metadata().expect("it is open");
         if status.is_dir() {
             self.sync_names(status.ino(), names);
         } else if let Some(content) = contents.get(&status.ino()) {
             self.contents.insert(status.ino(), content.clone());
+        }
+    }
+
+    /// Remembers what a loss of power may leave where a program sees these names and contents.
+    fn lose(&mut self, names: &Names, contents: &Contents) {
+        let torn = self.mixed(contents, |old, new| [old, &new[..new.len() / 2]].concat());
+        let zeroed = self.mixed(contents, |old, new| [old, &vec![0; new.len()][..]].concat());
+        for names in mixtures(&self.names, names) {
+            for contents in mixtures(&self.contents, contents).iter().chain([&torn, &zeroed]) {
+                let files = files(&names, contents);
+                self.remains.insert(Remains { files, promised: self.promised.clone() });
+            }
         }
     }
 

@@ -1,13 +1,14 @@
 //! The run as a film: champions that walk, curves that climb, in the Rerun viewer.
 //!
-//! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. It is made as a
-//! [`Draft`] and put in its place when it has everything that the one there has: a recording can be made anew at
-//! any time, and the old one is there until then. Read in this order: [`film`] says when a champion is on
-//! screen, so that no other need be simulated, [`clip`] what is shown of it, `take` turns its trajectory into columns of rows (`limbs` its links
-//! and motors, `steps` its feet, `heading` brings it into its lane), `screen` puts it in its place, [`scenery`] is what never changes, [`track`] where lanes lie, [`ruler`]
-//! paints distances on the ground, [`family`] and [`state`] are graphs and bars, `figures` the curves of a replay,
-//! [`blueprint`] arranges it all, [`race`] the view of all lanes, `file` writes it, [`live`] serves it, [`recorder`]
-//! puts it together, `packing` makes it smaller in the end, and [`palette`] holds every colour.
+//! A [`Recorder`] turns what the islands say into a recording, on disk and, if wanted, live. It is made as a [`Draft`]
+//! and put in its place when it has everything that the one there has: a recording can be made anew at any time, and
+//! the old one is there until then. Read in this order: [`film`] says when a champion is on screen, so that no other
+//! need be simulated, [`clip`] what is shown of it, `take` turns its trajectory into columns of rows (`limbs` its
+//! links and motors, `steps` its feet, `heading` brings it into its lane), `screen` puts it in its place, [`scenery`]
+//! is what never changes, [`track`] where lanes lie, [`ruler`] paints distances on the ground, [`family`] and
+//! [`state`] are graphs and bars, `figures` the curves of a replay, [`blueprint`] arranges it all, [`race`] the view
+//! of all lanes, `file` writes it, [`live`] serves it, [`recorder`] puts it together, `packing` makes it smaller in
+//! the end, and [`palette`] holds every colour.
 //!
 //! What a recording holds, by entity:
 //!

@@ -22,7 +22,7 @@ use crate::rng::{Purpose, Source, Stream};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A species that has not improved for so many generations has no offspring.
 const STAGNANT: u32 = 15;
@@ -197,11 +197,15 @@ impl Species {
 
     /// Whether what was read from a file can be those of a population of this size in this generation.
     pub fn is_sound(&self, individuals: usize, generation: u32) -> bool {
+        // A generation divides twice, and no division makes more species than there are individuals.
+        let species_max = (2 * u64::from(generation) + 2) * individuals as u64;
+        let inhabited: BTreeSet<u32> = self.of.iter().copied().collect();
         let numbers: Vec<u32> = self.living.iter().map(|one| one.number).collect();
         let is_living = |number: &u32| numbers.binary_search(number).is_ok();
         self.of.len() == individuals
             && numbers.is_sorted_by(|a, b| a < b)
-            && numbers.iter().all(|number| *number < self.next && self.of.contains(number))
+            && numbers.iter().all(|number| *number < self.next && inhabited.contains(number))
+            && u64::from(self.next) <= species_max
             && self.of.iter().all(is_living)
             && self.living.iter().all(|one| one.progress.since <= generation)
             && self.all.since <= generation

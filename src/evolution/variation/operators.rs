@@ -24,7 +24,8 @@ pub struct Variation {
     pub shrink_rate: f64,
     /// Probability of an offspring to gain a random gene, 0 to 1.
     pub grow_rate: f64,
-    /// Probability of an offspring to repeat a part of itself, 0 to 1: see [`Problem::duplicate`](crate::evolution::Problem::duplicate).
+    /// Probability of an offspring to repeat a part of itself, 0 to 1: see
+    /// [`Problem::duplicate`](crate::evolution::Problem::duplicate).
     pub duplicate_rate: f64,
     /// No genome that may be of any length gets longer than this, in genes, at least 1.
     pub genes_max: usize,

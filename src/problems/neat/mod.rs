@@ -152,7 +152,7 @@ impl Neat {
     }
 
     fn genome(&self, genes: &[networks::Gene]) -> Genome {
-        // Genomes of evolution are sound, and others are refused where they are read.
+        // What is no network has nothing in common with others, and never has a score.
         Genome::of_genes(genes, self.test.sockets()).unwrap_or_default()
     }
 
@@ -203,9 +203,11 @@ impl Problem for Neat {
             is_acyclic: self.test.wiring() == Wiring::FeedForward,
             genes_max: variation.genes_max,
         };
-        let mut genome = self.genome(genes);
-        growth.mutate(&mut genome, self.test.sockets(), rng);
-        *genes = genome.genes();
+        // What is no network stays what it is, and scores nothing.
+        if let Ok(mut genome) = Genome::of_genes(genes, self.test.sockets()) {
+            growth.mutate(&mut genome, self.test.sockets(), rng);
+            *genes = genome.genes();
+        }
     }
 
     /// NEAT's crossover, of which `a` counts as the fitter parent: see [`crossover::cross`].
@@ -216,7 +218,10 @@ impl Problem for Neat {
         _variation: &Variation,
         rng: &mut Stream,
     ) -> Vec<networks::Gene> {
-        crossover::cross(&self.genome(a), &self.genome(b), rng).genes()
+        match Genome::of_genes(a, self.test.sockets()) {
+            Ok(mother) => crossover::cross(&mother, &self.genome(b), rng).genes(),
+            Err(_) => a.to_vec(),
+        }
     }
 
     /// δ / (1 + δ).

@@ -3,6 +3,7 @@
 use super::cart::Cart;
 use super::*;
 use crate::networks::{Link, Neuron, marking};
+use crate::rng::{Purpose, Source};
 
 fn neat(test: Test) -> Neat {
     Neat { test, start: Start::Minimal }
@@ -89,5 +90,25 @@ fn genes_that_make_no_network_fail_and_do_not_panic() {
     for test in Test::ALL {
         let evaluation = neat(test).evaluate(&alien);
         assert_eq!(evaluation.outcome, Outcome::TooLarge);
+    }
+}
+
+#[test]
+fn the_child_of_what_is_no_network_is_none_either_and_never_empty() {
+    let alien = linked(&[(9, 12, 1.0)], None);
+    let problem = neat(Test::Xor);
+    let mut rng = Source { seed: 3, island: 0 }.stream(0, 0, Purpose::Mutation);
+    let sound = problem.random_genome(&mut rng);
+    let variation = Variation::default();
+    for _ in 0..50 {
+        for father in [&alien, &sound] {
+            let mut child = problem.crossover(&alien, father, &variation, &mut rng);
+            problem.mutate(&mut child, &variation, &mut rng);
+            assert_eq!(problem.evaluate(&child).outcome, Outcome::TooLarge);
+            assert!(!child.is_empty());
+        }
+        let mut child = problem.crossover(&sound, &alien, &variation, &mut rng);
+        problem.mutate(&mut child, &variation, &mut rng);
+        assert_eq!(problem.evaluate(&child).outcome, Outcome::Scored);
     }
 }

@@ -1,7 +1,7 @@
 //! What creatures may have to do: each task is a file, and all of them are listed once, in [`Task`].
 //!
-//! A further task is a file beside these with a [`Definition`](definition::Definition), and a line of the list. Flags, help, refusals and
-//! reports follow from the list.
+//! A further task is a file beside these with a [`Definition`](definition::Definition), and a line of the list. Flags,
+//! help, refusals and reports follow from the list.
 
 pub mod definition;
 

@@ -16,7 +16,8 @@ pub const DEFINITION: Definition =
 /// The turns that every part keeps, to the side that is worth more.
 fn turns(measured: &Measurement) -> f64 {
     let to_side = |side: f64| {
-        let kept = (0..measured.poses.parts()).map(|part| progress::kept(&course(&measured.poses, part, side)));
+        let kept = (0..measured.poses.parts())
+            .map(|part| progress::kept(&course(&measured.poses, part, side)));
         kept.reduce(f64::min).unwrap_or(0.0)
     };
     to_side(1.0).max(to_side(-1.0)).max(0.0)

@@ -128,7 +128,17 @@ impl Config {
                 self.population, self.max_genes
             )));
         }
-        Ok(())
+        match self.problem {
+            Kind::Network(test) if self.start.genes_max(test.sockets()) > self.max_genes => {
+                Err(Failure::usage(format!(
+                    "first networks of --start {} may have {} genes: --max-genes is {}",
+                    self.start,
+                    self.start.genes_max(test.sockets()),
+                    self.max_genes
+                )))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check_migrants(&self) -> Result<(), Failure> {

@@ -34,10 +34,11 @@
 //!
 //! # Several worlds at a time
 //!
-//! A world here is several side by side ([`lanes`](super::lanes)), as many as a [`Width`](super::lanes::width::Width) has, all with the same body: the trials of
-//! a body differ in their numbers alone. Where they part (a contact that one of them has, a hinge that is loose in
-//! some) all do what any of them needs, and keep it to those that need it. That is what eight at a time lose: eight
-//! random trials of a body have 2.4 times as many points in contact as one of them, and sweep twice as often.
+//! A world here is several side by side ([`lanes`](super::lanes)), as many as a [`Width`](super::lanes::width::Width)
+//! has, all with the same body: the trials of a body differ in their numbers alone. Where they part (a contact that
+//! one of them has, a hinge that is loose in some) all do what any of them needs, and keep it to those that need it.
+//! That is what eight at a time lose: eight random trials of a body have 2.4 times as many points in contact as one of
+//! them, and sweep twice as often.
 
 mod constraint;
 mod contact;

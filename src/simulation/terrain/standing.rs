@@ -9,8 +9,9 @@ use nalgebra::{Vector2, Vector3};
 const ROOM_M: f64 = 0.05;
 
 impl Terrain {
-    /// Where the root of a body begins, in metres: above [`Terrain::start_m`] or so far from it, unless a wall is nearer to that than
-    /// the body reaches, and so high that every link is as high over the highest ground below it as the start says.
+    /// Where the root of a body begins, in metres: above [`Terrain::start_m`] or so far from it, unless a wall is
+    /// nearer to that than the body reaches, and so high that every link is as high over the highest ground below it
+    /// as the start says.
     pub fn root_start_m(
         &self,
         morphology: &Morphology,

@@ -1,4 +1,4 @@
-//! Promises of what is read and of what is made of it; whole experiments are in `tests/experiment.rs`.
+//! Promises of what is read and of what is made of it; whole experiments are in `tests/program/experiment.rs`.
 
 use super::analysis;
 use super::archive::Run;

@@ -34,7 +34,8 @@ impl Studio {
     /// A studio that tries creatures as a run with a configuration does, but for what the user wants otherwise.
     ///
     /// # Errors
-    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be used.
+    /// If more links or trials are asked for than may be, or scales that the profile has not, or the terrain cannot be
+    /// used.
     pub fn new(args: &ReplayArgs, usual: &Config) -> Result<Self, Failure> {
         let mut config = args.settings.over(usual.clone());
         config.scales = match args.changes.scales() {
