@@ -104,6 +104,24 @@ pub fn read(input: impl Read) -> std::io::Result<Vec<Row>> {
     rows.collect::<Result<_, _>>().map_err(std::io::Error::other)
 }
 
+/// A table that [`write`](fn@write) wrote as it was before there were species: without their column.
+///
+/// # Errors
+/// If it is no table.
+pub fn without_species(table: &[u8]) -> std::io::Result<Vec<u8>> {
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(table);
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let mut species = None;
+    for line in reader.records() {
+        let line = line.map_err(std::io::Error::other)?;
+        let dropped = *species.get_or_insert_with(|| line.iter().position(|it| it == "species"));
+        let kept = (0..).zip(&line).filter(|(column, _)| Some(*column) != dropped);
+        let kept = kept.map(|(_, cell)| cell);
+        writer.write_record(kept).map_err(std::io::Error::other)?;
+    }
+    writer.into_inner().map_err(|error| error.into_error())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -6,6 +6,7 @@ use crate::support::{TINY, World, until};
 use islands::archipelago::{Births, Champion, Outbox};
 use islands::creature::Gene;
 use islands::evolution::{Fitness, Id};
+use islands::formats::metrics;
 use islands::store::{Checkpoint, Entry, RecordLog, RunDir};
 use serde_json::Value;
 use std::fs;
@@ -37,6 +38,21 @@ fn a_sound_run_is_verified_with_its_digest() {
         assert_eq!(simulated > champions, thorough == "--thorough", "{verdict}");
         assert!(verdict["damaged"].as_array().unwrap().is_empty(), "{verdict}");
     }
+}
+
+/// Such a run has no column of species.
+#[test]
+fn a_run_from_before_there_were_species_is_verified_and_its_metrics_are_not_taken_on_trust() {
+    let world = World::new();
+    world.digest("run", &format!("--n 2 --seed 3 {TINY}"));
+    let path = RunDir::at(world.path("run")).metrics();
+    let older = metrics::without_species(&fs::read(&path).unwrap()).unwrap();
+    assert!(!String::from_utf8(older.clone()).unwrap().contains("species"));
+    fs::write(&path, &older).unwrap();
+    assert_eq!(verify(&world, "run").code, Some(0));
+    let last = older.len() - 2;
+    fs::write(&path, [&older[..last], b"7\n"].concat()).unwrap();
+    assert_eq!(verify(&world, "run").code, Some(1));
 }
 
 #[test]
