@@ -154,7 +154,7 @@ fn golden_runs_have_had_the_same_digest_since_they_were_committed() {
     assert!(wrong.is_empty(), "{}\n{advice}", wrong.join("\n"));
 }
 
-/// The gate runs this on processors of other years, too, which it emulates: hence one process and little work.
+/// The gate runs this on a processor of another year, too, which it emulates: hence one process and little work.
 #[test]
 fn small_golden_runs_have_their_digest_in_one_process() {
     let is_small = |path: &PathBuf| {
