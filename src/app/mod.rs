@@ -1,6 +1,6 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
-//! [`args`] is what can be said. [`commands`] has a file or a folder for each verb, [`processes`] has those that make up a
+//! `args` is what can be said. `commands` has a file or a folder for each verb, `processes` has those that make up a
 //! run. Both use the rest: `genomes` reads those that are named, `pedigree` puts ancestries into words, `viewer` opens a
 //! viewer, `console` prints and reads the clock, `table` lays out. What a run is, [`crate::runs`] knows.
 //!

@@ -1,7 +1,7 @@
 //! Brains: senses in, commands out, once a control period.
 //!
 //! A [`Controller`] is what a body has of a brain: its motors, the control period, and which [`Brain`] commands the
-//! motors. [`Brain::awake`] makes it a [`Mind`], which has a state and lives as long as a trial. [`senses`] say what a
+//! motors. `Brain::awake` makes it a [`Mind`], which has a state and lives as long as a trial. [`senses`] say what a
 //! mind may know and [`waves`] is the brain that needs to know nothing. A further brain is a file and a line of
 //! [`Brain`].
 

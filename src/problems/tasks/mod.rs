@@ -1,6 +1,6 @@
 //! What creatures may have to do: each task is a file, and all of them are listed once, in [`Task`].
 //!
-//! A further task is a file beside these with a [`Definition`](definition::Definition), and a line of the list. Flags,
+//! A further task is a file beside these with a [`Definition`], and a line of the list. Flags,
 //! help, refusals and reports follow from the list.
 
 pub mod definition;
