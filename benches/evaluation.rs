@@ -42,7 +42,7 @@ fn evaluation(criterion: &mut Criterion) {
         let steps = u64::from(problem.trial().steps()) * genomes.len() as u64;
         group.throughput(Throughput::Elements(steps));
         for engine in Engine::ALL {
-            let problem = Locomotion { engine, ..problem };
+            let problem = Locomotion { engine, ..problem.clone() };
             let id = BenchmarkId::new(engine.to_string(), links);
             group.bench_with_input(id, &genomes, |bencher, genomes| {
                 bencher.iter(|| -> f64 {

@@ -9,12 +9,13 @@ use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem, Var
 use crate::rng::Stream;
 use crate::simulation::{self, Engine, Terrain, Trajectory, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 /// The height of a body from which on bodies count as equally high, in metres.
 pub const HEIGHT_MAX_M: f64 = 3.0;
 
 /// The problem of locomotion, over any encoding.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Locomotion<E = Course> {
     /// How genes become creatures.
     pub encoding: E,
@@ -28,7 +29,7 @@ pub struct Locomotion<E = Course> {
     /// the own one.
     pub judged: bool,
     /// What they stand on, if it is another ground than the task's.
-    pub terrain: Option<&'static Terrain>,
+    pub terrain: Option<Arc<Terrain>>,
 }
 
 impl Default for Locomotion {
@@ -58,7 +59,10 @@ impl<E: Encoding> Locomotion<E> {
     /// How bodies are tried.
     pub fn trial(&self) -> Trial {
         let trial = self.task.trial_in(self.engine);
-        self.terrain.map_or(trial, |terrain| trial.on(terrain))
+        match &self.terrain {
+            None => trial,
+            Some(terrain) => trial.on(Arc::clone(terrain)),
+        }
     }
 
     /// Expresses a genome.

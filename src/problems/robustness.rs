@@ -97,7 +97,7 @@ impl Robustness {
     pub fn trials(self, usual: Trial) -> impl Iterator<Item = Trial> {
         let perturbed = move |index| match self.is_wanted() {
             true => usual.perturbed(index),
-            false => usual,
+            false => usual.clone(),
         };
         (0..self.trials_of_the_best().max(1)).map(perturbed)
     }

@@ -40,7 +40,7 @@ impl<E: Encoding> Locomotion<E> {
         usual: &Trial,
         hurdles: &Hurdles,
     ) -> Result<f64, Outcome> {
-        let trials: Vec<Trial> = self.trials(*usual).collect();
+        let trials: Vec<Trial> = self.trials(usual.clone()).collect();
         let mut scores = Vec::new();
         for index in 0..trials.len() {
             if self.fails(&scores, hurdles) {
@@ -63,7 +63,7 @@ impl<E: Encoding> Locomotion<E> {
     /// So many trials go side by side after some. Most offspring fail at the first look: who may has its first trial
     /// alone.
     fn at_a_time(&self, tried: usize, hurdles: &Hurdles) -> usize {
-        let most = simulation::at_a_time(self.engine, self.trial().ground);
+        let most = simulation::at_a_time(self.engine, &self.trial().ground);
         match tried {
             0 if hurdles.looks[0] > Fitness::WORST => 1,
             _ => most - tried % most,
@@ -121,7 +121,7 @@ impl<E: Encoding> Locomotion<E> {
         hurdle: Fitness,
     ) -> Result<f64, Outcome> {
         let other = Self { engine: self.engine.other(), ..self.clone() };
-        let usual = Trial { steps_per_s: other.trial().steps_per_s, ..*usual };
+        let usual = Trial { steps_per_s: other.trial().steps_per_s, ..usual.clone() };
         let trials = match self.robustness.trials {
             0 => vec![usual],
             _ => (0..JUDGE_TRIALS).map(|index| usual.perturbed(self.unscored() + index)).collect(),
@@ -151,9 +151,9 @@ impl<E: Encoding> Locomotion<E> {
         let scores: Vec<f64> = tried.iter().copied().flatten().collect();
         let all = self.robustness.by.of(&scores);
         let far = |result: &Result<f64, Outcome>| result.map_or(-1.0, |own| (own - all).abs());
-        let trials = self.trials(*usual).zip(&tried);
+        let trials = self.trials(usual.clone()).zip(&tried);
         let nearest = trials.min_by(|(_, a), (_, b)| far(a).total_cmp(&far(b)));
-        (score, nearest.map_or(*usual, |(trial, _)| trial))
+        (score, nearest.map_or_else(|| usual.clone(), |(trial, _)| trial))
     }
 
     /// What a body gets in the other engine, in as many perturbations as its score has and none of the same ones. A
@@ -219,7 +219,7 @@ impl<E: Encoding> Locomotion<E> {
         let trial = |index| self.unpushed(usual.perturbed(first + index));
         let trials: Vec<Trial> = (0..trials).map(trial).collect();
         let groups: Vec<&[Trial]> =
-            trials.chunks(simulation::at_a_time(engine, usual.ground)).collect();
+            trials.chunks(simulation::at_a_time(engine, &usual.ground)).collect();
         let tried = work_queue::dearest_first(&vec![1; groups.len()], |group| {
             let scores = || problem.try_each(creature, groups[group]);
             catch_unwind(AssertUnwindSafe(scores))

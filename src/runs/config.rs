@@ -40,7 +40,7 @@ impl Config {
 
     /// The problem of locomotion that is solved where creatures are evolved.
     pub fn locomotion(&self) -> Locomotion {
-        let terrain = self.terrain.as_ref().and_then(|it| it.terrain);
+        let terrain = self.terrain.as_ref().and_then(|it| it.terrain.clone());
         let usual = self.parts().locomotion;
         let encoding = Course { scales: self.scales, ..usual.encoding };
         Locomotion { encoding, terrain, ..usual }

@@ -70,7 +70,7 @@ mod tests {
         champions[3].fitness = Fitness::new(9.0);
         let holds = |one: &Individual<Gene>| {
             let creature = problem.express(&one.genome).unwrap();
-            let usual = Locomotion { engine: Engine::Rapier, ..problem }.trial();
+            let usual = Locomotion { engine: Engine::Rapier, ..problem.clone() }.trial();
             let other = [8, 9].map(|index| {
                 let trial = usual.perturbed(index);
                 crate::simulation::simulate(&creature, &trial, Engine::Rapier)

@@ -10,6 +10,7 @@ use crate::store::{RunDir, file};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What a configuration says of the terrain of its run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -19,14 +20,14 @@ pub struct KeptTerrain {
     pub digest: String,
     /// The terrain, once the copy was read.
     #[serde(skip)]
-    pub terrain: Option<&'static Terrain>,
+    pub terrain: Option<Arc<Terrain>>,
 }
 
 impl KeptTerrain {
     /// That of a terrain.
-    pub fn of(terrain: &'static Terrain) -> Self {
-        let digest = blake3::hash(&copy(terrain)).to_string();
-        Self { digest, terrain: Some(terrain) }
+    pub fn of(terrain: Terrain) -> Self {
+        let digest = blake3::hash(&copy(&terrain)).to_string();
+        Self { digest, terrain: Some(Arc::new(terrain)) }
     }
 
     fn read(&mut self, dir: &RunDir) -> Result<(), Failure> {
@@ -37,7 +38,7 @@ impl KeptTerrain {
             return Err(wrong(&path, &changed));
         }
         let terrain = terrain::read(&bytes, &Sizing::default());
-        self.terrain = Some(terrain.map_err(|error| wrong(&path, &error))?.keep());
+        self.terrain = Some(Arc::new(terrain.map_err(|error| wrong(&path, &error))?));
         Ok(())
     }
 
@@ -48,7 +49,7 @@ impl KeptTerrain {
     pub fn check(&self) -> Result<(), Failure> {
         let lost =
             "the configuration says that there is a terrain, but not which: name it with --terrain";
-        self.terrain.map(|_| ()).ok_or_else(|| Failure::usage(lost))
+        self.terrain.as_ref().map(|_| ()).ok_or_else(|| Failure::usage(lost))
     }
 }
 
@@ -65,7 +66,7 @@ pub fn read(said: &mut Option<KeptTerrain>, dir: &RunDir) -> Result<(), Failure>
 /// # Errors
 /// If the disk is full or gone.
 pub fn keep(dir: &RunDir, said: Option<&KeptTerrain>) -> Result<(), Failure> {
-    let Some(terrain) = said.and_then(|it| it.terrain) else { return Ok(()) };
+    let Some(terrain) = said.and_then(|it| it.terrain.as_deref()) else { return Ok(()) };
     Ok(dir.write(&dir.terrain(), |out| out.write_all(&copy(terrain)))?)
 }
 

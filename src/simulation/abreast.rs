@@ -14,7 +14,7 @@ use super::terrain::Ground;
 use super::trial::Trial;
 use crate::creature::Creature;
 use crate::simulation::failure::Failure;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// How many trials go at a time.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +55,7 @@ impl Abreast {
 }
 
 /// So many trials on a ground are best given to [`simulate_each`] at a time.
-pub fn at_a_time(engine: Engine, ground: Ground) -> usize {
+pub fn at_a_time(engine: Engine, ground: &Ground) -> usize {
     match (engine, ground) {
         (Engine::Featherstone, Ground::Plane) => Abreast::of_this_machine().lanes(),
         _ => 1,
@@ -84,10 +84,10 @@ pub fn simulate_abreast(
     trials: &[Trial],
     abreast: Abreast,
 ) -> Vec<Result<Measurement, Failure>> {
-    match (trials.first().map(|trial| trial.ground), abreast) {
+    match (trials.first().map(|trial| &trial.ground), abreast) {
         (None, _) => Vec::new(),
         (Some(Ground::Terrain(terrain)), _) => {
-            Batch::new(Alone, Relief(terrain), creature, trials).run()
+            Batch::new(Alone, Relief(Arc::clone(terrain)), creature, trials).run()
         }
         (Some(Ground::Plane), Abreast::One) => Batch::new(Alone, Plane, creature, trials).run(),
         (Some(Ground::Plane), Abreast::Four(avx2)) => {

@@ -232,7 +232,7 @@ impl Assembly {
 
 /// Where the root begins, in metres.
 fn root_start_m(morphology: &Morphology, trial: &Trial, offset_m: Vector3<f64>) -> Vector3<f64> {
-    let height_m = match (trial.ground, trial.start) {
+    let height_m = match (&trial.ground, trial.start) {
         (Ground::Terrain(terrain), start) => {
             return terrain.root_start_m(morphology, start, offset_m);
         }

@@ -26,7 +26,7 @@ impl Observer for () {
 /// A trial under way.
 pub struct Attempt<'a> {
     creatures: Vec<&'a Creature>,
-    trial: Trial,
+    trial: &'a Trial,
     assembly: Assembly,
     /// Of each body.
     guards: Vec<Guard>,
@@ -48,7 +48,7 @@ impl<'a> Attempt<'a> {
         world: &impl World,
         assembly: Assembly,
         creatures: &[&'a Creature],
-        trial: &Trial,
+        trial: &'a Trial,
         observer: &mut impl Observer,
     ) -> Self {
         observer.observe(0, world, &assembly);
@@ -58,7 +58,7 @@ impl<'a> Attempt<'a> {
         let guards = bodies.map(guard).collect();
         let mut attempt = Self {
             creatures: creatures.to_vec(),
-            trial: *trial,
+            trial,
             assembly,
             guards,
             step: 0,
@@ -133,7 +133,7 @@ impl<'a> Attempt<'a> {
             world.halt();
             self.begin_scoring(world);
         } else {
-            self.phase = Phase::Settling { round: round + 1, calm: Calm::new(&self.trial) };
+            self.phase = Phase::Settling { round: round + 1, calm: Calm::new(self.trial) };
             self.step = 0;
             observer.observe(0, world, &self.assembly);
         }
@@ -142,9 +142,8 @@ impl<'a> Attempt<'a> {
 
     fn begin_scoring(&mut self, world: &impl World) {
         let bodies = self.creatures.iter().zip(&self.assembly.bodies);
-        let scored = bodies.map(|(creature, body)| {
-            Scored::new(world, &self.assembly, body, creature, &self.trial)
-        });
+        let scored = bodies
+            .map(|(creature, body)| Scored::new(world, &self.assembly, body, creature, self.trial));
         self.phase = Phase::Scored { steps: 0, bodies: scored.collect() };
     }
 
@@ -154,7 +153,7 @@ impl<'a> Attempt<'a> {
         for ((scored, guard), body) in
             bodies.iter_mut().zip(&self.guards).zip(&self.assembly.bodies)
         {
-            scored.follow(*steps, &self.trial, guard, &self.assembly, body, world)?;
+            scored.follow(*steps, self.trial, guard, &self.assembly, body, world)?;
         }
         *steps += 1;
         Ok(*steps == self.trial.steps_in_exactly(self.trial.scored_s))

@@ -12,13 +12,13 @@ impl Trial {
     /// The same trial with its `index`-th perturbation, and at other steps.
     pub fn perturbed(&self, index: u32) -> Self {
         let (drawn, rate_share) = Perturbation::draw(index);
-        let perturbation = match self.ground {
+        let perturbation = match &self.ground {
             Ground::Plane => drawn,
             Ground::Terrain(_) => drawn.facing_ahead(),
         };
         let rate = f64::from(self.steps_per_s) * rate_share;
         let steps_per_s = ((rate / RATE_UNIT).round() * RATE_UNIT) as u32;
-        Self { steps_per_s, perturbation, ..*self }
+        Self { steps_per_s, perturbation, ..self.clone() }
     }
 
     /// The same trial without a push, for scores that one would be a free gain of.
@@ -26,7 +26,7 @@ impl Trial {
         let none = Perturbation::NONE;
         let Perturbation { push_m_s, push_share, .. } = none;
         let perturbation = Perturbation { push_m_s, push_share, ..self.perturbation };
-        Self { perturbation, ..*self }
+        Self { perturbation, ..self.clone() }
     }
 
     /// After how many scored steps the body is pushed: when a position of the track was taken, so that the track shows

@@ -12,6 +12,7 @@ use super::trial::Trial;
 use super::world::{self, Stepper, World};
 use crate::creature::Creature;
 use crate::simulation::failure::Failure;
+use std::sync::Arc;
 
 /// Tries a creature.
 ///
@@ -67,13 +68,13 @@ pub fn film_together(
     meeting: Meeting,
     engine: Engine,
 ) -> Result<(Result<Vec<Measurement>, Failure>, Trajectory), CannotCollide> {
-    let mut trial = *trial;
+    let mut trial = trial.clone();
     let collide = meeting == Meeting::Collide;
     trial.guards.keeps_ledger &= !collide;
     let assembly = Assembly::together(entrants, &trial);
     let mut camera = Camera::new(entrants, &trial);
     let creatures: Vec<&Creature> = entrants.iter().map(|entrant| entrant.creature).collect();
-    let result = match (engine, trial.ground) {
+    let result = match (engine, &trial.ground) {
         (Engine::Featherstone, _) if collide => return Err(CannotCollide { engine }),
         (Engine::Rapier, _) => {
             let world = RapierWorld::of_several(&assembly, &trial, collide);
@@ -84,7 +85,8 @@ pub fn film_together(
             run_in(world, assembly, &creatures, &trial, &mut camera)
         }
         (Engine::Featherstone, Ground::Terrain(terrain)) => {
-            let on = |body: &Assembly| FeatherstoneWorld::on(Relief(terrain), body, &trial);
+            let on =
+                |body: &Assembly| FeatherstoneWorld::on(Relief(Arc::clone(terrain)), body, &trial);
             let world = Separate::new(&assembly, on);
             run_in(world, assembly, &creatures, &trial, &mut camera)
         }
@@ -101,7 +103,7 @@ struct Camera<'a> {
 impl<'a> Camera<'a> {
     fn new(entrants: &[Entrant], trial: &'a Trial) -> Self {
         let bodies = entrants.iter().map(|entrant| entrant.creature);
-        let trajectory = Trajectory::new(bodies, trial.settle_s, trial.ground);
+        let trajectory = Trajectory::new(bodies, trial.settle_s, trial.ground.clone());
         Self { trajectory, every: trial.steps_in(1.0 / FRAMES_PER_S), trial }
     }
 }
@@ -125,7 +127,7 @@ fn run(
 ) -> Result<Measurement, Failure> {
     let assembly = Assembly::new(creature, trial);
     let creatures = [creature];
-    let measured = match (engine, trial.ground) {
+    let measured = match (engine, &trial.ground) {
         (Engine::Rapier, _) => {
             run_in(RapierWorld::new(&assembly, trial), assembly, &creatures, trial, observer)
         }
@@ -133,7 +135,7 @@ fn run(
             run_in(FeatherstoneWorld::new(&assembly, trial), assembly, &creatures, trial, observer)
         }
         (Engine::Featherstone, Ground::Terrain(terrain)) => {
-            let world = FeatherstoneWorld::on(Relief(terrain), &assembly, trial);
+            let world = FeatherstoneWorld::on(Relief(Arc::clone(terrain)), &assembly, trial);
             run_in(world, assembly, &creatures, trial, observer)
         }
     };

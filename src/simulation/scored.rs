@@ -45,7 +45,7 @@ impl Scored {
         let mut track_m = Vec::with_capacity(moments);
         track_m.push(centre_first_m.xy());
         let (sample_steps, standing) = (trial.sample_steps(), Vector3::zeros());
-        let heights_m = height_m(now, assembly, body, trial.ground, &centre_first_m);
+        let heights_m = height_m(now, assembly, body, &trial.ground, &centre_first_m);
         let controller = &creature.controller;
         let links = controller.motors.iter().zip(&assembly.places[body.links.clone()]).enumerate();
         let driven = links.filter_map(|(link, (motor, place))| motor.map(|_| (link, place.part)));
@@ -111,7 +111,7 @@ impl Scored {
         let poses = self.poses.push(world::part_poses(world, body));
         let centre_m = world::centre_of(poses, &assembly.parts[body.parts.clone()]);
         self.track_m.push(centre_m.xy());
-        self.heights_m.extend(height_m(poses, assembly, body, trial.ground, &centre_m));
+        self.heights_m.extend(height_m(poses, assembly, body, &trial.ground, &centre_m));
         if trial.guards.keeps_ledger { self.ledger.enter(centre_m) } else { Ok(()) }
     }
 
@@ -144,7 +144,7 @@ fn height_m(
     poses: &[Isometry3<f64>],
     assembly: &Assembly,
     body: &Member,
-    ground: Ground,
+    ground: &Ground,
     centre_m: &Vector3<f64>,
 ) -> Option<f64> {
     let below_m = ground.terrain()?.height_m(centre_m.x, centre_m.y);

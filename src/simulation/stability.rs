@@ -25,7 +25,7 @@ pub struct Guard {
 impl Guard {
     /// The bounds of a body that was just put together.
     pub fn new(assembly: &Assembly, body: &Member, creature: &Creature, trial: &Trial) -> Self {
-        let Trial { ground, guards, .. } = *trial;
+        let Trial { ground, guards, .. } = trial.clone();
         let extent_m = creature.morphology.extent_m();
         let parts = assembly.parts[body.parts.clone()].iter();
         let positions_m = parts.map(|part| part.world_from_part.translation.vector);
@@ -37,7 +37,7 @@ impl Guard {
     }
 
     fn height_m(&self, position_m: &Vector3<f64>) -> f64 {
-        match self.ground {
+        match &self.ground {
             Ground::Plane => position_m.z,
             Ground::Terrain(terrain) => {
                 let far = Vector2::repeat(self.extent_m);
@@ -52,7 +52,7 @@ impl Guard {
     /// If the body has left its terrain, over its walls or through its ground. The momentum of what has fallen through
     /// a mesh, and of what hangs on the far side of a wall, is nobody's merit.
     fn check_place(&self, centre_m: &Vector3<f64>) -> Result<(), Failure> {
-        let Ground::Terrain(terrain) = self.ground else { return Ok(()) };
+        let Ground::Terrain(terrain) = &self.ground else { return Ok(()) };
         let depth_m = terrain.height_m(centre_m.x, centre_m.y) - centre_m.z;
         let is_there = terrain.holds(centre_m.x, centre_m.y) && depth_m < self.extent_m;
         if is_there { Ok(()) } else { Err(Failure::Launched) }
@@ -69,7 +69,7 @@ impl Guard {
         body: &Member,
     ) -> Result<(), Failure> {
         self.check_parts(world, body)?;
-        match self.ground {
+        match &self.ground {
             Ground::Plane => Ok(()),
             Ground::Terrain(_) => self.check_place(&world::centre_of_mass(world, assembly, body)),
         }

@@ -5,9 +5,10 @@ use super::medium::Medium;
 use super::perturbation::Perturbation;
 use super::start::Start;
 use super::terrain::{Ground, Terrain};
+use std::sync::Arc;
 
 /// How a body is tried.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
     /// Steps a second.
     pub steps_per_s: u32,
@@ -58,7 +59,7 @@ pub const GRIP: f64 = FRICTION * FRICTION;
 
 impl Trial {
     /// The same trial on a terrain, where no ledger can be kept: see [`Ledger`](super::stability::Ledger).
-    pub fn on(self, terrain: &'static Terrain) -> Self {
+    pub fn on(self, terrain: Arc<Terrain>) -> Self {
         let guards = Guards { keeps_ledger: false, ..self.guards };
         Self { ground: Ground::Terrain(terrain), guards, ..self }
     }

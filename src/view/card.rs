@@ -55,7 +55,7 @@ impl RunCard {
 
     /// The lanes side by side; on a terrain all in the same place.
     pub fn track(&self) -> Track {
-        match self.ground {
+        match &self.ground {
             Ground::Plane => Track::of(self.lane_count()),
             Ground::Terrain(_) => Track::shared(self.lane_count()),
         }

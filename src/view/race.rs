@@ -26,7 +26,7 @@ pub const FRAME: &str = "race/frame";
 
 /// An eye that sees all champions.
 pub fn eye(card: &RunCard) -> EyeControls3D {
-    match card.ground {
+    match &card.ground {
         Ground::Plane => race_eye(card.track()),
         Ground::Terrain(terrain) => visitor(terrain),
     }

@@ -45,7 +45,7 @@ fn stages(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
         rec.log_static(root, &ViewCoordinates::RIGHT_HAND_Z_UP())?;
     }
     let track = card.track();
-    match card.ground {
+    match &card.ground {
         Ground::Plane => {
             card.lanes().try_for_each(|(index, lane)| stage(rec, track, index, lane.hue))?;
             marks(rec, track)

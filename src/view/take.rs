@@ -139,7 +139,7 @@ impl<'a> Take<'a> {
         let flag = above + 0.35 + FLAG_M * self.screening.lanes as f32 / self.reach_m;
         self.label(rec, "flag", short_label, flag)?;
 
-        match self.trajectory().ground {
+        match &self.trajectory().ground {
             Ground::Plane => self.floor(rec),
             Ground::Terrain(_) => Ok(()),
         }

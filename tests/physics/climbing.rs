@@ -14,6 +14,7 @@ use islands::simulation::{Engine, simulate};
 use islands::store::RunDir;
 use nalgebra::{UnitQuaternion, vector};
 use std::fs;
+use std::sync::Arc;
 
 /// A pillar that stands on its end.
 fn pillar(height_m: f64) -> Creature {
@@ -92,7 +93,7 @@ fn perturbed_trials_are_on_the_terrain() {
     for engine in Engine::ALL {
         let usual = Locomotion { terrain: Some(mountain()), ..Locomotion::single(engine) };
         let robustness = Robustness { trials: 1, by: RobustBy::Mean };
-        let robust = Locomotion { robustness, ..usual };
+        let robust = Locomotion { robustness, ..usual.clone() };
         for genome in random_genomes(&usual, 4) {
             let creature = usual.express(&genome).unwrap();
             let scores = (0..4).map(|index| {
@@ -157,7 +158,7 @@ fn a_run_keeps_the_terrain_that_it_was_on_and_everybody_uses_it() {
     let dir = RunDir::at(world.path("run"));
     let config = Config::of_run(&dir).unwrap();
     let kept = terrain::read(&fs::read(dir.terrain()).unwrap(), &Default::default()).unwrap();
-    assert_eq!(config.locomotion().terrain, Some(kept.keep()));
+    assert_eq!(config.locomotion().terrain, Some(Arc::new(kept)));
     assert_eq!(world.json("verify run --thorough --json")["ok"], true);
     assert_eq!(world.digest("again", "--config run/run.toml"), digest);
     assert_eq!(world.digest("kept", &format!("{settings} --terrain run/terrain.csv")), digest);

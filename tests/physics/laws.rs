@@ -112,11 +112,10 @@ fn the_middle_of_no_link_is_ever_below_the_ground() {
 /// What a trial needs is asked for before its first step: one that ends before the body lands asks as often.
 #[test]
 fn our_own_engine_asks_for_no_memory_while_it_steps() {
-    let course = Task::Course.trial();
     for genome in random_genomes(12, 6) {
         let creature = problem(Profile::Native, Task::Course).express(&genome).unwrap();
         let times = [0.25, 8.0].map(|scored_s| {
-            let trial = Trial { scored_s, ..course };
+            let trial = Trial { scored_s, ..Task::Course.trial() };
             let try_out = || _ = simulation::simulate(&creature, &trial, Engine::Featherstone);
             memory::times_in(try_out)
         });

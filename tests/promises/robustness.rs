@@ -133,7 +133,7 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
         for index in 0..6 {
             let genome = genome(3, index);
             let own = robust(4, RobustBy::Mean, engine);
-            let score = |problem: Locomotion| problem.evaluate(&genome).fitness;
+            let score = |problem: &Locomotion| problem.evaluate(&genome).fitness;
             let creature = own.express(&genome).unwrap();
             let others = [16, 17, 18, 19].map(|index| {
                 let trial = Task::Walk.trial_in(engine.other()).perturbed(index);
@@ -141,11 +141,11 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
                 Task::Walk.score(&measured)
             });
             let other = Fitness::new(RobustBy::Mean.of(&others));
-            let judged = score(Locomotion { judged: true, ..own });
-            let is_confirmed = other.get() >= 0.85 * score(own).get();
-            let expected = if is_confirmed { score(own) } else { other };
+            let judged = score(&Locomotion { judged: true, ..own.clone() });
+            let is_confirmed = other.get() >= 0.85 * score(&own).get();
+            let expected = if is_confirmed { score(&own) } else { other };
             assert_eq!(judged, expected, "{engine}");
-            lowered += usize::from(judged < score(own));
+            lowered += usize::from(judged < score(&own));
         }
     }
     assert!((1..12).contains(&lowered), "{lowered}");

@@ -48,7 +48,7 @@ impl TerrainArgs {
     ///
     /// # Errors
     /// One sentence that names the file and what is wrong.
-    pub fn read(&self) -> Result<Option<&'static Terrain>, Failure> {
+    pub fn read(&self) -> Result<Option<Terrain>, Failure> {
         let Some(path) = &self.terrain else { return Ok(None) };
         let sizing = Sizing {
             width_m: self.terrain_size,
@@ -57,7 +57,7 @@ impl TerrainArgs {
         };
         let bytes = file::read(path, BYTES_MAX).map_err(|error| wrong(path, &error.reason()))?;
         let terrain = terrain::read(&bytes, &sizing).map_err(|error| wrong(path, &error))?;
-        Ok(Some(terrain.keep()))
+        Ok(Some(terrain))
     }
 }
 

@@ -38,7 +38,7 @@ fn obj(terrain: &Terrain) -> String {
 #[test]
 fn a_grid_comes_back_to_the_last_bit() {
     let mut file = Vec::new();
-    write(mountain(), &mut file).unwrap();
+    write(&mountain(), &mut file).unwrap();
     assert_eq!(read(&file, &PLAIN).unwrap(), *mountain());
     let elsewhere = Sizing { start_m: Some([1.0, 2.0]), ..PLAIN };
     assert_eq!(read(&file, &elsewhere).unwrap().start_m(), [1.0, 2.0]);
@@ -48,16 +48,16 @@ fn a_grid_comes_back_to_the_last_bit() {
 
 #[test]
 fn a_mesh_of_the_mountain_is_the_mountain() {
-    let read = read(obj(mountain()).as_bytes(), &PLAIN).unwrap();
+    let read = read(obj(&mountain()).as_bytes(), &PLAIN).unwrap();
     assert_eq!((read.points(), read.step_m()), ([81, 81], 0.25));
     assert_eq!((read.half_m(), read.start_m()), (mountain().half_m(), mountain().start_m()));
     for i in 0..500 {
         let (x_m, y_m) = (9.9 * libm::sin(f64::from(i)), 9.9 * libm::cos(1.3 * f64::from(i)));
-        let [expected, found] = [mountain(), &read].map(|it| it.height_m(x_m, y_m));
+        let [expected, found] = [&*mountain(), &read].map(|it| it.height_m(x_m, y_m));
         assert!((expected - found).abs() < 1e-5, "{found}, not {expected} at {x_m}, {y_m}");
     }
     let sizing = Sizing { width_m: Some(10.0), height_m: Some(1.0), start_m: None };
-    let small = super::read(obj(mountain()).as_bytes(), &sizing).unwrap();
+    let small = super::read(obj(&mountain()).as_bytes(), &sizing).unwrap();
     let heights_m = || small.heights_m().iter().copied();
     let range_m = heights_m().fold(0.0, f64::max) - heights_m().fold(9.0, f64::min);
     assert!((small.half_m().x - 5.0).abs() < 1e-9 && (range_m - 1.0).abs() < 1e-6, "{range_m}");

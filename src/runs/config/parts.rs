@@ -6,7 +6,7 @@ use crate::evolution::Strategy;
 use crate::problems::Locomotion;
 
 /// What a configuration is made into: whose fields are the settings that say so.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Parts {
     /// What decides the result of the run, but for the problem.
     pub archipelago: Archipelago,

@@ -12,6 +12,7 @@ use super::spatial::{Mat3, Spatial};
 use crate::simulation::lanes::width::Alone;
 use crate::simulation::lanes::{Everywhere, Real, Vec3};
 use nalgebra::{Vector2, Vector3};
+use std::sync::Arc;
 
 /// Four points at each of four places along the axis of a solid.
 const POINTS: usize = 16;
@@ -29,8 +30,7 @@ const SIDES: [[f64; 2]; 4] = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
 const BEND: f64 = 0.998;
 
 /// A terrain to stand on.
-#[derive(Clone, Copy)]
-pub struct Relief(pub &'static Terrain);
+pub struct Relief(pub Arc<Terrain>);
 
 /// A way to face: two directions along the ground and the one up, as columns.
 #[derive(Clone, Copy)]
@@ -98,7 +98,7 @@ impl Footing<Alone> for Relief {
                 name: index * GROUNDS * POINTS,
                 touches: &mut *touches,
             };
-            foot.touch(self.0);
+            foot.touch(&self.0);
         }
     }
 }

@@ -27,7 +27,7 @@ impl Scene {
             max_ccd_substeps: 0,
             ..IntegrationParameters::default()
         };
-        let grounds = match trial.ground {
+        let grounds = match &trial.ground {
             Ground::Terrain(terrain) => field::colliders(terrain),
             Ground::Plane => {
                 let plane = ColliderBuilder::halfspace(nalgebra::Unit::new_unchecked(Vector::Z));

@@ -13,7 +13,7 @@ pub use mountain::mountain;
 use super::rapier_shape::GroundShape;
 use nalgebra::{Vector2, Vector3};
 use std::fmt;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Arc;
 
 /// The most points of a grid, along either side.
 pub const POINTS_MAX: usize = 1_025;
@@ -32,13 +32,13 @@ pub const WALL_M: f64 = 1.0;
 const ROUGHNESS: f64 = 4.0;
 
 /// What a body stands on.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum Ground {
     /// A plane without an end, at height 0.
     #[default]
     Plane,
-    /// A terrain. A program has one, or two, and keeps them to its end.
-    Terrain(&'static Terrain),
+    /// A terrain, which all trials on it share.
+    Terrain(Arc<Terrain>),
 }
 
 impl Ground {
@@ -72,7 +72,7 @@ impl Ground {
     }
 
     /// The terrain, if it is one.
-    pub fn terrain(&self) -> Option<&'static Terrain> {
+    pub fn terrain(&self) -> Option<&Terrain> {
         match self {
             Ground::Plane => None,
             Ground::Terrain(terrain) => Some(terrain),
@@ -166,18 +166,6 @@ impl Terrain {
         }
         terrain.wall_top_m = terrain.edge_m() + WALL_M;
         Ok(terrain)
-    }
-
-    /// Keeps a terrain to the end of the program, equal ones once: grounds are named in what is copied a lot.
-    pub fn keep(self) -> &'static Self {
-        static KEPT: Mutex<Vec<&'static Terrain>> = Mutex::new(Vec::new());
-        let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(same) = kept.iter().find(|it| ***it == self) {
-            return same;
-        }
-        let terrain: &'static Self = Box::leak(Box::new(self));
-        kept.push(terrain);
-        terrain
     }
 
     /// Where a body begins if nothing else is said: as far south of the middle as the foot of [`mountain`] is.

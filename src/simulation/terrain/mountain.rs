@@ -3,7 +3,7 @@
 use super::Terrain;
 use crate::rng::{Purpose, Source};
 use rand::RngExt;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 /// Points of the grid, each way: 20 m.
 const POINTS: usize = 41;
@@ -23,9 +23,9 @@ const SEED: u64 = 20;
 
 /// The arena of task `climb`: 20 m × 20 m with a hill of height 5·exp(−(x² + y²)/18) in its middle and rocks on it. A
 /// body begins at its foot.
-pub fn mountain() -> &'static Terrain {
-    static MOUNTAIN: LazyLock<Terrain> = LazyLock::new(build);
-    &MOUNTAIN
+pub fn mountain() -> Arc<Terrain> {
+    static MOUNTAIN: LazyLock<Arc<Terrain>> = LazyLock::new(|| Arc::new(build()));
+    Arc::clone(&MOUNTAIN)
 }
 
 fn build() -> Terrain {

@@ -98,9 +98,3 @@ fn what_nothing_could_stand_on_is_no_terrain() {
     assert!(matches!(new([3, 2], 1.0, 20.5, start), Err(TerrainError::Cliff { .. })));
     assert_eq!(new([3, 2], 1.0, 0.5, [1.5, 0.0]), Err(TerrainError::Start(1.5, 0.0)));
 }
-
-#[test]
-fn equal_terrains_are_kept_once() {
-    assert!(std::ptr::eq(ramp(0.25).keep(), ramp(0.25).keep()));
-    assert!(!std::ptr::eq(ramp(0.25).keep(), ramp(0.125).keep()));
-}

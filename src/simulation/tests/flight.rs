@@ -29,9 +29,9 @@ fn limbs_that_flail_in_empty_space_change_neither_momentum_nor_spin() {
     let (push_m_s, turn_rad_s) = (Vector3::new(0.5, -0.3, 0.2), Vector3::new(1.0, 2.0, -1.5));
     for engine in Engine::ALL {
         for (steps_per_s, tolerance) in [(240, 0.02), (3840, 0.004)] {
-            let space = Trial { steps_per_s, ..SPACE };
+            let space = || Trial { steps_per_s, ..SPACE };
             let kicked = |factor: f64| {
-                let mut lab = Lab::new(engine, &limbs(0.3), space);
+                let mut lab = Lab::new(engine, &limbs(0.3), space());
                 lab.world.kick(push_m_s * factor, turn_rad_s * factor);
                 lab
             };

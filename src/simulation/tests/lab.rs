@@ -9,6 +9,7 @@ use super::super::trial::Trial;
 use super::super::world::{self, Stepper};
 use crate::creature::Creature;
 use nalgebra::{Isometry3, Point3, Vector3};
+use std::sync::Arc;
 
 /// A body in an engine's world.
 pub struct Lab {
@@ -31,13 +32,13 @@ pub struct Motion {
 impl Lab {
     pub fn new(engine: Engine, creature: &Creature, trial: Trial) -> Self {
         let assembly = Assembly::new(creature, &trial);
-        let world: Box<dyn Stepper> = match (engine, trial.ground) {
+        let world: Box<dyn Stepper> = match (engine, &trial.ground) {
             (Engine::Rapier, _) => Box::new(RapierWorld::new(&assembly, &trial)),
             (Engine::Featherstone, Ground::Plane) => {
                 Box::new(FeatherstoneWorld::new(&assembly, &trial))
             }
             (Engine::Featherstone, Ground::Terrain(terrain)) => {
-                Box::new(FeatherstoneWorld::on(Relief(terrain), &assembly, &trial))
+                Box::new(FeatherstoneWorld::on(Relief(Arc::clone(terrain)), &assembly, &trial))
             }
         };
         Self { world, assembly, trial }

@@ -11,6 +11,7 @@ use super::{GRAVITY_M_S2, TRIAL};
 use crate::creature::{Creature, Inertia};
 use crate::simulation::failure::Failure;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use std::sync::Arc;
 
 /// The coefficient of friction between a terrain and a link.
 const GRIP: f64 = 1.0;
@@ -21,7 +22,7 @@ fn ramp(slope: f64) -> Trial {
     let ramp = Terrain::new([81, 81], 0.5, heights_m, [0.3, 0.2]).unwrap();
     // What lies on it with its bottom 0.1 m below its middle.
     let above_m = 0.101 * libm::hypot(1.0, slope);
-    Trial { start: Start::RootAt(above_m), ..TRIAL.on(ramp.keep()) }
+    Trial { start: Start::RootAt(above_m), ..TRIAL.on(Arc::new(ramp)) }
 }
 
 /// A body that lies on a ramp.
@@ -114,10 +115,10 @@ fn a_ball_that_runs_into_a_slope_neither_sinks_in_nor_is_thrown_up() {
         };
         let start_m = way * -0.6 + way.cross(&Vector3::z()) * 0.1;
         let heights_m = (0..41 * 41).map(ahead_m).collect();
-        let terrain = Terrain::new([41, 41], 0.5, heights_m, [start_m.x, start_m.y]).unwrap();
+        let terrain =
+            Arc::new(Terrain::new([41, 41], 0.5, heights_m, [start_m.x, start_m.y]).unwrap());
         for engine in Engine::ALL {
-            let trial =
-                Trial { start: Start::RootAt(RADIUS_M), ..TRIAL.on(terrain.clone().keep()) };
+            let trial = Trial { start: Start::RootAt(RADIUS_M), ..TRIAL.on(Arc::clone(&terrain)) };
             let mut lab = Lab::new(engine, &ball, trial);
             lab.run(0.1);
             lab.world.kick(way * SPEED_M_S, Vector3::zeros());
@@ -159,7 +160,7 @@ fn what_slides_over_edges_between_triangles_does_not_stumble() {
 /// A level arena of 4 m × 4 m.
 fn arena(start_m: [f64; 2]) -> Trial {
     let level = Terrain::new([9, 9], 0.5, vec![0.0; 81], start_m).unwrap();
-    TRIAL.on(level.keep())
+    TRIAL.on(Arc::new(level))
 }
 
 #[test]
@@ -213,7 +214,7 @@ fn who_begins_beside_a_cliff_and_rolls_away_from_it_is_no_athlete() {
     let ball = ball(0.25);
     // It touches neither the cliff nor the ground, and the cliff is within its reach.
     let start = Start::RootAt(0.27);
-    let trial = Trial { start, scored_s: 3.0, ..TRIAL.on(terrain.keep()) };
+    let trial = Trial { start, scored_s: 3.0, ..TRIAL.on(Arc::new(terrain)) };
     for engine in Engine::ALL {
         let measured = simulate(&ball, &trial, engine);
         let rolled_m = measured.map(|it| (it.centre_last_m - it.centre_first_m).y);

@@ -37,9 +37,9 @@ pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
         false => ("champions.rrd", pedigree::selection(&champions, most)),
     };
     let out = args.out.clone().unwrap_or_else(|| dir.path().join(name));
+    let is_as_scored = args.seconds.is_none() && studio.problem == problem;
     let herald = Herald::of(&config, problem);
     let family = herald.family(&lineage, best.id);
-    let is_as_scored = args.seconds.is_none() && studio.problem == problem;
     Reel { studio, line, herald, family, is_as_scored }.record(args, &dir, &out)?;
     Ok(out)
 }
@@ -123,7 +123,7 @@ impl Reel {
             has_stage: true,
             has_family: !self.family.line.is_empty(),
             pace: Pace { slot_s: self.studio.clip_s(), generations_per_slot: 1 },
-            ground: self.studio.trial.ground,
+            ground: self.studio.trial.ground.clone(),
         }
     }
 }

@@ -39,7 +39,7 @@ pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
         has_stage: true,
         has_family: false,
         pace: Pace::for_run(0, None, studio.clip_s()),
-        ground: studio.trial.ground,
+        ground: studio.trial.ground.clone(),
     };
     let mut recorder = recorder(&out, card)?;
     for ((lane, path), shot) in (0..).zip(paths).zip(shots) {

@@ -36,10 +36,10 @@ fn bits(measured: &Result<Measurement, Failure>) -> Result<Vec<u64>, Failure> {
 
 #[test]
 fn a_trial_has_the_same_bits_whatever_goes_beside_it_and_whatever_the_processor_does_at_a_time() {
-    let walk = Trial { start: Start::LeaningAt(0.1), settle_s: 0.5, scored_s: 2.0, ..TRIAL };
+    let walk = || Trial { start: Start::LeaningAt(0.1), settle_s: 0.5, scored_s: 2.0, ..TRIAL };
     for seed in 0..24 {
         let creature = random_creature(seed);
-        let usual = if seed % 4 == 3 { walk.on(terrain::mountain()) } else { walk };
+        let usual = if seed % 4 == 3 { walk().on(terrain::mountain()) } else { walk() };
         // More than eight, so that worlds are used again; another number than any width divides.
         let trials: Vec<Trial> = (0..11).map(|index| usual.perturbed(index)).collect();
         let alone = |trial| simulate(&creature, trial, Engine::Featherstone);
