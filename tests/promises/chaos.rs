@@ -4,7 +4,7 @@
 
 #![expect(clippy::print_stdout, reason = "what a long round did is worth knowing")]
 
-use crate::support::{Running, World, checkpoints, is_alive, try_signal, until};
+use crate::support::{Running, World, checkpoints, is_alive, stop, try_signal, until};
 use islands::rng::Stream;
 use islands::store::RunDir;
 use rand::{RngExt, SeedableRng};
@@ -163,7 +163,7 @@ impl Chaos {
     fn stop_island(&mut self) {
         let island = self.any_island();
         let Some(pid) = self.find(&format!("--index={island}")) else { return };
-        self.tally.stops += u32::from(try_signal(pid, "STOP"));
+        self.tally.stops += u32::from(stop(pid));
         sleep(Duration::from_millis(self.rng.random_range(0..300)));
         try_signal(pid, "CONT");
     }
@@ -172,8 +172,10 @@ impl Chaos {
     fn damage_checkpoint(&mut self) {
         let island = self.any_island();
         let Some(pid) = self.find(&format!("--index={island}")) else { return };
-        // A stopped island does not write another one meanwhile.
-        try_signal(pid, "STOP");
+        // A stopped island does not write another one meanwhile, and has not come to its end.
+        if !stop(pid) {
+            return;
+        }
         let harmed = self.rng.random_range(1..=2);
         for checkpoint in checkpoints(&self.dir(), island).into_iter().take(harmed) {
             let bytes = fs::read(&checkpoint).unwrap();

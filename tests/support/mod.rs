@@ -254,6 +254,15 @@ pub fn try_signal(pid: u32, name: &str) -> bool {
     kill.status().unwrap().success()
 }
 
+/// Stops a process, and says whether that came before its end.
+pub fn stop(pid: u32) -> bool {
+    let is_stopped = || status_of(pid, 0).is_some_and(|state| state == "T");
+    try_signal(pid, "STOP") && {
+        until("it has stopped or ended", || is_stopped() || !is_alive(pid));
+        is_stopped()
+    }
+}
+
 /// Waits until every island of a run has evolved this generation.
 pub fn await_generation(dir: &RunDir, islands: u32, generation: u32) {
     let generations = |island| {
