@@ -16,6 +16,14 @@ pub fn ranking<G>(population: &[Individual<G>]) -> Vec<usize> {
     order
 }
 
+/// Copies of the best of a population, the best first; of equal ones the first.
+pub fn elite<G: Clone>(
+    population: &[Individual<G>],
+    elites: usize,
+) -> impl Iterator<Item = Individual<G>> {
+    ranking(population).into_iter().take(elites).map(|index| population[index].clone())
+}
+
 /// The best individual, the first of equal ones; none in an empty population.
 pub fn best<G>(population: &[Individual<G>]) -> Option<&Individual<G>> {
     population.iter().reduce(|best, other| if other.fitness > best.fitness { other } else { best })

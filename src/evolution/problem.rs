@@ -3,8 +3,8 @@
 use super::fitness::{Evaluation, Fitness};
 use super::gene::Gene;
 use super::hurdles::Hurdles;
-use super::variation::sequences::{self, Layout};
-use super::variation::{self, Variation, happens};
+use super::variation::sequences::Layout;
+use super::variation::{self, Variation};
 use crate::rng::Stream;
 use crate::work_queue;
 
@@ -78,16 +78,13 @@ pub trait Problem: Sync + Sized {
 
     /// Mutates a genome as `variation` says: its values and, where it may be of any length, its genes.
     fn mutate(&self, genome: &mut Vec<Self::Gene>, variation: &Variation, rng: &mut Stream) {
-        genome.iter_mut().for_each(|gene| self.mutate_gene(gene, variation, rng));
-        if self.layout() == Layout::Fixed {
-            return;
-        }
-        let Variation { shrink_rate, grow_rate, duplicate_rate, genes_max, .. } = *variation;
-        sequences::shrink(genome, shrink_rate, rng);
-        sequences::grow(genome, grow_rate, genes_max, rng, |rng| self.random_gene(rng));
-        if happens(duplicate_rate, rng) {
-            self.duplicate(genome, genes_max, rng);
-        }
+        let mutate_gene = |gene: &mut _, rng: &mut Stream| self.mutate_gene(gene, variation, rng);
+        let random_gene = |rng: &mut Stream| self.random_gene(rng);
+        let duplicate = |genome: &mut Vec<_>, rng: &mut Stream| {
+            self.duplicate(genome, variation.genes_max, rng);
+        };
+        let layout = self.layout();
+        variation::mutate(genome, layout, variation, rng, mutate_gene, random_gene, duplicate);
     }
 
     /// What a genome is like besides being good: two numbers from 0 to 1, by which phenotypes are told apart and laid

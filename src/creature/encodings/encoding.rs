@@ -1,8 +1,8 @@
 //! What an encoding is.
 
 use crate::creature::living::Creature;
-use crate::evolution::variation::sequences::{self, Layout};
-use crate::evolution::variation::{self, happens};
+use crate::evolution::variation;
+use crate::evolution::variation::sequences::Layout;
 use crate::evolution::{Gene, Variation};
 use crate::rng::Stream;
 
@@ -45,16 +45,13 @@ pub trait Encoding: Clone + std::fmt::Debug + PartialEq + Send + Sync {
 
     /// Mutates a genome as `variation` says: its values and, where it may be of any length, its genes.
     fn mutate(&self, genome: &mut Vec<Self::Gene>, variation: &Variation, rng: &mut Stream) {
-        genome.iter_mut().for_each(|gene| self.mutate_gene(gene, variation, rng));
-        if self.layout() == Layout::Fixed {
-            return;
-        }
-        let Variation { shrink_rate, grow_rate, duplicate_rate, genes_max, .. } = *variation;
-        sequences::shrink(genome, shrink_rate, rng);
-        sequences::grow(genome, grow_rate, genes_max, rng, |rng| self.random_gene(rng));
-        if happens(duplicate_rate, rng) {
-            self.duplicate(genome, genes_max, rng);
-        }
+        let mutate_gene = |gene: &mut _, rng: &mut Stream| self.mutate_gene(gene, variation, rng);
+        let random_gene = |rng: &mut Stream| self.random_gene(rng);
+        let duplicate = |genome: &mut Vec<_>, rng: &mut Stream| {
+            self.duplicate(genome, variation.genes_max, rng);
+        };
+        let layout = self.layout();
+        variation::mutate(genome, layout, variation, rng, mutate_gene, random_gene, duplicate);
     }
 
     /// Repeats a part of a genome within it, if it can and that leaves at most `genes_max` genes: by default it

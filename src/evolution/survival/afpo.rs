@@ -1,11 +1,10 @@
 //! Age-fitness Pareto optimisation (Schmidt & Lipson 2010): the young compete with the young, so that what is new has
 //! time to become good. Parents are picked at random, and a random newcomer comes with each generation.
 
-use super::scheme::{Scheme, at_random};
+use super::scheme::Scheme;
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
-use crate::evolution::selection::Selection;
 use crate::rng::Stream;
 use rand::RngExt;
 use std::cmp::Reverse;
@@ -24,18 +23,6 @@ impl Scheme for Afpo {
         rng: &mut Stream,
     ) -> Population<P::Gene> {
         pareto(old, brood, rng)
-    }
-
-    /// Parents are picked at random: survival selects.
-    fn couples<P: Problem>(
-        self,
-        _: &P,
-        population: &[Individual<P::Gene>],
-        _: Selection,
-        offspring: usize,
-        stream: impl Fn(usize) -> Stream,
-    ) -> Vec<[usize; 2]> {
-        at_random(population, offspring, stream)
     }
 
     fn has_elites(self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::scheme::Scheme;
 use crate::evolution::individual::Individual;
-use crate::evolution::population::{Population, ranking};
+use crate::evolution::population::{Population, elite};
 use crate::evolution::problem::Problem;
 use crate::rng::Stream;
 
@@ -14,18 +14,7 @@ pub struct Generational;
 #[derive(Debug, Clone, Copy)]
 pub struct Drifting;
 
-impl Scheme for Generational {
-    fn survivors<P: Problem>(
-        self,
-        _: &P,
-        old: &[Individual<P::Gene>],
-        brood: Population<P::Gene>,
-        elites: usize,
-        _: &mut Stream,
-    ) -> Population<P::Gene> {
-        elitist(old, brood, elites)
-    }
-}
+impl Scheme for Generational {}
 
 impl Scheme for Drifting {
     fn survivors<P: Problem>(
@@ -38,21 +27,4 @@ impl Scheme for Drifting {
     ) -> Population<P::Gene> {
         brood.into_iter().chain(elite(old, elites)).collect()
     }
-}
-
-/// The best `elites` of the old population, unchanged and first, then the offspring.
-pub fn elitist<G: Clone>(
-    old: &[Individual<G>],
-    offspring: Population<G>,
-    elites: usize,
-) -> Population<G> {
-    elite(old, elites).chain(offspring).collect()
-}
-
-/// The best of a population; of equal ones the first.
-fn elite<G: Clone>(
-    population: &[Individual<G>],
-    elites: usize,
-) -> impl Iterator<Item = Individual<G>> {
-    ranking(population).into_iter().take(elites).map(|index| population[index].clone())
 }

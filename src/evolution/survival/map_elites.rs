@@ -1,10 +1,9 @@
 //! MAP-Elites (Mouret & Clune 2015): a map of what is possible, with the best that is known in each of its cells.
 
-use super::scheme::{Scheme, at_random};
+use super::scheme::Scheme;
 use crate::evolution::individual::Individual;
 use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
-use crate::evolution::selection::Selection;
 use crate::rng::Stream;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -29,18 +28,6 @@ impl Scheme for MapElites {
         _: &mut Stream,
     ) -> Population<P::Gene> {
         fill(problem, self.bins, old.iter().cloned().chain(brood))
-    }
-
-    /// Parents are picked at random: survival selects.
-    fn couples<P: Problem>(
-        self,
-        _: &P,
-        population: &[Individual<P::Gene>],
-        _: Selection,
-        offspring: usize,
-        stream: impl Fn(usize) -> Stream,
-    ) -> Vec<[usize; 2]> {
-        at_random(population, offspring, stream)
     }
 
     fn has_elites(self) -> bool {

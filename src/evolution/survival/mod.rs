@@ -25,7 +25,7 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Survival {
-    /// [`elitist::elitist`]: the offspring replace all but the elites.
+    /// [`elitist::Generational`]: the offspring replace all but the elites.
     Generational,
     /// The same, but of equally good ones the youngest counts as the best: what changes nothing stays, so that search
     /// drifts over what is flat (Kimura 1968; plateaus of a (1 + λ): Jansen & Wegener 2001).

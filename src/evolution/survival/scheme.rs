@@ -1,28 +1,30 @@
 //! What a scheme of survival may change of a generation.
 
 use crate::evolution::individual::Individual;
-use crate::evolution::population::Population;
+use crate::evolution::population::{Population, elite};
 use crate::evolution::problem::Problem;
 use crate::evolution::selection::Selection;
 use crate::rng::Stream;
 use std::ops::RangeInclusive;
 
-/// All that a scheme of survival changes of a generation. What it does not say is as with
-/// [generational replacement](super::elitist::Generational).
+/// All that a scheme of survival changes of a generation. What it does not say is as with generational replacement.
 pub trait Scheme: Copy {
-    /// The next population: `old` is the one whose offspring `brood` is. The stream is drawn from by those that leave it
-    /// to chance who dies.
+    /// The next population: `old` is the one whose offspring `brood` is. The best `elites` of the old one live on, and
+    /// come first. The stream is drawn from by those that leave it to chance who dies.
     fn survivors<P: Problem>(
         self,
-        problem: &P,
+        _problem: &P,
         old: &[Individual<P::Gene>],
         brood: Population<P::Gene>,
         elites: usize,
-        rng: &mut Stream,
-    ) -> Population<P::Gene>;
+        _rng: &mut Stream,
+    ) -> Population<P::Gene> {
+        elite(old, elites).chain(brood).collect()
+    }
 
     /// The parents of each of so many offspring, two indices into the population. `selection` is how parents are picked
-    /// where the scheme leaves it open; a stream comes for each offspring.
+    /// where the scheme leaves it open: where it is survival that selects, they are picked at random. A stream comes for
+    /// each offspring.
     fn couples<P: Problem>(
         self,
         _problem: &P,
@@ -31,6 +33,8 @@ pub trait Scheme: Copy {
         offspring: usize,
         stream: impl Fn(usize) -> Stream,
     ) -> Vec<[usize; 2]> {
+        let at_random = Selection::Tournament { size: 1 };
+        let selection = if self.has_selection() { selection } else { at_random };
         let fitness: Vec<_> = population.iter().map(|one| one.fitness).collect();
         selection.prepare(&fitness).couples(offspring, stream)
     }
@@ -76,14 +80,4 @@ pub trait Scheme: Copy {
     fn forgets(self) -> bool {
         true
     }
-}
-
-/// The parents of each of so many offspring, each one picked at random.
-pub fn at_random<G>(
-    population: &[Individual<G>],
-    offspring: usize,
-    stream: impl Fn(usize) -> Stream,
-) -> Vec<[usize; 2]> {
-    let fitness: Vec<_> = population.iter().map(|one| one.fitness).collect();
-    Selection::Tournament { size: 1 }.prepare(&fitness).couples(offspring, stream)
 }

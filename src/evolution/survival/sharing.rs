@@ -1,10 +1,8 @@
 //! Fitness sharing (Goldberg & Richardson 1987): who lives in a crowd shares its fitness with it.
 
-use super::elitist::elitist;
 use super::scheme::Scheme;
 use crate::evolution::fitness::Fitness;
 use crate::evolution::individual::Individual;
-use crate::evolution::population::Population;
 use crate::evolution::problem::Problem;
 use crate::evolution::selection::Selection;
 use crate::rng::Stream;
@@ -17,17 +15,6 @@ pub struct Sharing {
 }
 
 impl Scheme for Sharing {
-    fn survivors<P: Problem>(
-        self,
-        _: &P,
-        old: &[Individual<P::Gene>],
-        brood: Population<P::Gene>,
-        elites: usize,
-        _: &mut Stream,
-    ) -> Population<P::Gene> {
-        elitist(old, brood, elites)
-    }
-
     fn couples<P: Problem>(
         self,
         problem: &P,

@@ -10,7 +10,6 @@
 //! two parents the fitter is the mother, of equally fit ones the one with the shorter genome; where the least fitness is
 //! negative, shares are counted from there; and where all species are stagnant, the one with the best is not.
 
-use super::elitist::elitist;
 use super::scheme::Scheme;
 use crate::evolution::fitness::Fitness;
 use crate::evolution::individual::Individual;
@@ -41,17 +40,6 @@ pub struct Divided {
 }
 
 impl Scheme for Divided {
-    fn survivors<P: Problem>(
-        self,
-        _: &P,
-        old: &[Individual<P::Gene>],
-        brood: Population<P::Gene>,
-        elites: usize,
-        _: &mut Stream,
-    ) -> Population<P::Gene> {
-        elitist(old, brood, elites)
-    }
-
     /// Champions of species live on instead.
     fn has_elites(self) -> bool {
         false

@@ -79,7 +79,8 @@ fn indices(population: &[Individual<Place>]) -> Vec<u32> {
 fn elites_live_on_before_their_offspring() {
     let old = [one(0, 0.0, 1.0), one(1, 0.0, 3.0), one(2, 0.0, 2.0)];
     let brood = vec![one(3, 0.0, 0.0)];
-    assert_eq!(indices(&elitist::elitist(&old, brood, 2)), [1, 2, 3]);
+    let next = Survival::Generational.survivors(&Line, &old, brood, 2, &mut stream(0));
+    assert_eq!(indices(&next), [1, 2, 3]);
 }
 
 #[test]

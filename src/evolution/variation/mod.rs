@@ -36,6 +36,28 @@ pub fn recombine<G: Gene>(
     }
 }
 
+/// Mutates a genome as `variation` says: each gene and, where genomes may be of any length, how many there are.
+pub fn mutate<G>(
+    genome: &mut Vec<G>,
+    layout: Layout,
+    variation: &Variation,
+    rng: &mut Stream,
+    mutate_gene: impl Fn(&mut G, &mut Stream),
+    random_gene: impl Fn(&mut Stream) -> G,
+    duplicate: impl Fn(&mut Vec<G>, &mut Stream),
+) {
+    genome.iter_mut().for_each(|gene| mutate_gene(gene, rng));
+    if layout == Layout::Fixed {
+        return;
+    }
+    let Variation { shrink_rate, grow_rate, duplicate_rate, genes_max, .. } = *variation;
+    sequences::shrink(genome, shrink_rate, rng);
+    sequences::grow(genome, grow_rate, genes_max, rng, random_gene);
+    if happens(duplicate_rate, rng) {
+        duplicate(genome, rng);
+    }
+}
+
 fn number_by_number<G: Gene>(a: &G, b: &G, crossover: Crossover, rng: &mut Stream) -> G {
     let mut child = *a;
     if child.values().is_empty() {

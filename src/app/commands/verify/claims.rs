@@ -188,10 +188,10 @@ fn check_metrics<G: Gene>(dir: &RunDir, terms: &Terms, records: &Records<G>, sou
             .expect("memory takes everything");
         // Runs of old have no such column.
         let older = metrics::without_species(&right).expect("it is a table");
-        let is_older = file::read(&dir.metrics(), right.len())
-            .is_ok_and(|found| first_line(&found) == first_line(&older));
+        let found = file::read(&dir.metrics(), right.len());
+        let is_older = found.as_ref().is_ok_and(|found| first_line(found) == first_line(&older));
         let right = if is_older { &older } else { &right };
-        compare(&mut check, &dir.metrics(), right, "the reports of all islands");
+        compare_read(&mut check, &dir.metrics(), found, right, "the reports of all islands");
     }
     check
 }
@@ -202,7 +202,17 @@ fn first_line(text: &[u8]) -> Option<&[u8]> {
 
 /// A file that is written from something must be what would be written again.
 fn compare(check: &mut Check, path: &Path, right: &[u8], source: &str) {
-    let found = match file::read(path, right.len()) {
+    compare_read(check, path, file::read(path, right.len()), right, source);
+}
+
+fn compare_read(
+    check: &mut Check,
+    path: &Path,
+    found: Result<Vec<u8>, StoreError>,
+    right: &[u8],
+    source: &str,
+) {
+    let found = match found {
         Ok(found) => found,
         Err(error) => return check.damaged(error),
     };
