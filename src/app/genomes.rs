@@ -3,7 +3,8 @@
 use crate::app::args::body_args::ChangeArgs;
 use crate::app::console::say;
 use crate::app::table::harmless;
-use crate::creature::{Creature, Gene, Reading};
+use crate::creature::{Creature, Encoding};
+use crate::evolution::Gene;
 use crate::formats::urdf::{self, ReadBody};
 use crate::formats::{GenomeCsvError, ReadGenome, genome_csv, network_csv, vector_csv};
 use crate::runs::Failure;
@@ -17,26 +18,30 @@ const SHOWN: usize = 20;
 
 /// What a file that the user names may be.
 #[derive(Debug)]
-pub enum Specimen {
+pub enum Specimen<G> {
     /// A genome.
-    Genome(Vec<Gene>),
+    Genome(Vec<G>),
     /// A body.
     Body(Box<ReadBody>),
 }
 
-impl Specimen {
+impl<G: Gene> Specimen<G> {
     /// Reads a file, and says what of it does not count or had to be changed.
     ///
     /// # Errors
     /// One sentence that names the file and what to do.
-    pub fn read(path: &Path, changes: &ChangeArgs) -> Result<Self, Failure> {
-        let dropped = dropped(&changes.drop_columns)?;
+    pub fn read(
+        path: &Path,
+        encoding: &impl Encoding<Gene = G>,
+        changes: &ChangeArgs,
+    ) -> Result<Self, Failure> {
+        let dropped = dropped(&changes.drop_columns, encoding.columns().len())?;
         let bytes = bytes(path)?;
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
         if text.trim_ascii_start().first() == Some(&b'<') {
             return body(text, path).map(|body| Self::Body(Box::new(body)));
         }
-        genome(&bytes, path, dropped).map(Self::Genome)
+        genome(encoding, &bytes, path, dropped).map(Self::Genome)
     }
 
     /// The creature that it is.
@@ -46,16 +51,13 @@ impl Specimen {
     pub fn creature(
         &self,
         path: &Path,
-        reading: Reading,
-        links_max: usize,
+        encoding: &impl Encoding<Gene = G>,
     ) -> Result<Creature, Failure> {
         match self {
             Self::Body(body) => Ok(body.creature.clone()),
-            Self::Genome(genome) => {
-                crate::creature::express(genome, reading, links_max).map_err(|error| {
-                    Failure::usage(format!("cannot build {}: {error}", path.display()))
-                })
-            }
+            Self::Genome(genome) => encoding.express(genome).map_err(|error| {
+                Failure::usage(format!("cannot build {}: {error}", path.display()))
+            }),
         }
     }
 }
@@ -64,9 +66,13 @@ impl Specimen {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn read_quietly(path: &Path, dropped: &[usize]) -> Result<ReadGenome, String> {
+pub fn read_quietly<E: Encoding>(
+    encoding: &E,
+    path: &Path,
+    dropped: &[usize],
+) -> Result<ReadGenome<E::Gene>, String> {
     let bytes = file::read(path, FILE_BYTES_MAX).map_err(|error| error.reason())?;
-    let read = genome_csv::read_without(bytes.as_slice(), dropped);
+    let read = genome_csv::read_without(encoding, bytes.as_slice(), dropped);
     read.map_err(|error| reason(&bytes, &error))
 }
 
@@ -106,8 +112,13 @@ fn reason(bytes: &[u8], error: &GenomeCsvError) -> String {
     }
 }
 
-fn genome(bytes: &[u8], path: &Path, dropped: &[usize]) -> Result<Vec<Gene>, Failure> {
-    let read = genome_csv::read_without(bytes, dropped)
+fn genome<E: Encoding>(
+    encoding: &E,
+    bytes: &[u8],
+    path: &Path,
+    dropped: &[usize],
+) -> Result<Vec<E::Gene>, Failure> {
+    let read = genome_csv::read_without(encoding, bytes, dropped)
         .map_err(|error| wrong(path, &reason(bytes, &error)))?;
     for clamped in read.clamped.iter().take(SHOWN) {
         say(&format!("warning: {}: {clamped}", path.display()));

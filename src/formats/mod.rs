@@ -1,6 +1,6 @@
 //! Files for people and other programs.
 //!
-//! - [`genome_csv`] reads and writes genomes, in the course's format; [`course`] says ours in the course's terms.
+//! - [`genome_csv`] reads and writes genomes of every encoding, in the course's format.
 //! - [`inspection`] says in JSON what a genome became, link by link; [`body_inspection`] what a body that was read is.
 //! - [`vector_csv`] reads and writes genomes of bits or numbers, [`network_csv`] networks, which it also draws.
 //! - [`metrics`] are what a run was like, a row an island and generation, as CSV.
@@ -13,7 +13,6 @@
 
 pub mod body_inspection;
 pub mod chart;
-pub mod course;
 pub mod genome_csv;
 pub mod inspection;
 pub mod metrics;

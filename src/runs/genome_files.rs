@@ -2,7 +2,6 @@
 
 use super::failure::Failure;
 use super::subject::Subject;
-use crate::creature::encodings::course::PARAMETER_COUNT;
 use crate::store::file;
 use std::path::Path;
 
@@ -24,12 +23,15 @@ pub fn read_for<P: Subject>(
     problem.read_genome(&bytes, dropped)
 }
 
-/// The columns to leave out, if they can be.
+/// The columns to leave out of lines that have so many more than a gene has, if they can be.
 ///
 /// # Errors
 /// One sentence that says what to change.
-pub fn dropped(columns: &[usize]) -> Result<&[usize], Failure> {
-    let most = PARAMETER_COUNT + columns.len();
+pub fn dropped(columns: &[usize], of_a_gene: usize) -> Result<&[usize], Failure> {
+    if of_a_gene == 0 && !columns.is_empty() {
+        return Err(Failure::usage("--drop-column means nothing to this problem: leave it out"));
+    }
+    let most = of_a_gene + columns.len();
     let are_there = columns.iter().all(|column| (1..=most).contains(column));
     let twice = (1..columns.len()).any(|i| columns[..i].contains(&columns[i]));
     match columns.len() <= DROPPED_MAX && are_there && !twice {

@@ -43,7 +43,9 @@ pub fn find<P: Subject>(
     read_from: Option<&Path>,
 ) -> Result<Vec<Vec<P::Gene>>, Failure> {
     let found = match (&config.seed_genomes, read_from) {
-        _ if !named.is_empty() => read(problem, named, genome_files::dropped(dropped)?)?,
+        _ if !named.is_empty() => {
+            read(problem, named, genome_files::dropped(dropped, problem.columns())?)?
+        }
         (Some(said), Some(file)) => load(problem, &RunDir::at(file.with_file_name("")), said)?,
         (Some(_), None) | (None, _) => Vec::new(),
     };

@@ -22,7 +22,7 @@ pub fn fixture(name: &str) -> String {
 }
 
 fn genome(name: &str) -> Vec<Gene> {
-    let read = genome_csv::read(fixture(name).as_bytes()).unwrap();
+    let read = genome_csv::read(&Course::DEFAULT, fixture(name).as_bytes()).unwrap();
     assert_eq!(read.clamped, [], "{name}");
     read.genome
 }
@@ -52,7 +52,7 @@ fn writing_a_genome_and_reading_it_gives_the_same_bits() {
     for genome in random.chain(extreme) {
         let mut file = Vec::new();
         genome_csv::write(&genome, &mut file).unwrap();
-        let read = genome_csv::read(file.as_slice()).unwrap();
+        let read = genome_csv::read(&Course::DEFAULT, file.as_slice()).unwrap();
         assert_eq!(read.clamped, []);
         let bits = |genome: &[Gene]| -> Vec<u64> {
             genome.iter().flat_map(|gene| gene.0).map(f64::to_bits).collect()
@@ -81,7 +81,7 @@ fn line_with(column: usize, cell: &str) -> String {
 #[test]
 fn line_ends_blank_lines_a_byte_order_mark_and_a_last_comma_make_no_difference() {
     let [a, b] = [line_with(1, "0.25"), line_with(17, "2.5e-1")];
-    let expected = genome_csv::read(format!("{a}\n{b}\n").as_bytes()).unwrap();
+    let expected = genome_csv::read(&Course::DEFAULT, format!("{a}\n{b}\n").as_bytes()).unwrap();
     assert_eq!(expected.genome.len(), 2);
     for file in [
         format!("{a},\n{b},\n"),
@@ -89,14 +89,18 @@ fn line_ends_blank_lines_a_byte_order_mark_and_a_last_comma_make_no_difference()
         format!("\u{feff}{a}\n\n  \r\n{b}"),
         format!("\n {} \n{b}\n\n", a.replace(',', " , ")),
     ] {
-        assert_eq!(genome_csv::read(file.as_bytes()).unwrap(), expected, "{file:?}");
+        assert_eq!(
+            genome_csv::read(&Course::DEFAULT, file.as_bytes()).unwrap(),
+            expected,
+            "{file:?}"
+        );
     }
 }
 
 #[test]
 fn a_value_of_one_or_more_is_clamped_and_reported() {
     let file = format!("{}\n\n{}\n", line_with(2, "1.0"), line_with(17, "1.077"));
-    let read = genome_csv::read(file.as_bytes()).unwrap();
+    let read = genome_csv::read(&Course::DEFAULT, file.as_bytes()).unwrap();
     assert_eq!(read.genome[0].0[1], VALUE_MAX);
     assert_eq!(read.genome[1].0[16], VALUE_MAX);
     let reports: Vec<String> = read.clamped.iter().map(ToString::to_string).collect();
@@ -133,7 +137,8 @@ fn a_broken_file_is_refused_with_the_line_and_what_to_do() {
         vec![b'\n'; genome_csv::LINES_MAX + 1],
     ];
     let errors = files.iter().chain(&after_good).map(|file| {
-        let error: GenomeCsvError = genome_csv::read(file.as_slice()).unwrap_err();
+        let error: GenomeCsvError =
+            genome_csv::read(&Course::DEFAULT, file.as_slice()).unwrap_err();
         error.to_string()
     });
     let expected = expect![[r#"

@@ -8,7 +8,7 @@ use crate::hostile::pieces::checkpoint_file;
 use crate::support::World;
 use expect_test::expect;
 use islands::archipelago::{Champion, Digest, Island, Outbox};
-use islands::creature::Gene;
+use islands::creature::{Course, Gene};
 use islands::formats::{genome_csv, metrics};
 use islands::runs::config::Config;
 use islands::store::{Checkpoint, Entry, RecordLog, RunDir, checkpoint};
@@ -76,7 +76,9 @@ fn a_finished_run_of_format_v1_says_what_it_always_said() {
         serde_json::from_str(&fs::read_to_string(dir.summary()).unwrap()).unwrap();
     assert_eq!(summary["digest"], Digest::of(&last).to_string());
     let rows = metrics::read(File::open(dir.metrics()).unwrap()).unwrap();
-    let genome = genome_csv::read(File::open(dir.champion_genome()).unwrap()).unwrap().genome;
+    let genome = genome_csv::read(&Course::DEFAULT, File::open(dir.champion_genome()).unwrap())
+        .unwrap()
+        .genome;
     let best = last.iter().map(|it| &it.champion).max_by_key(|it| it.fitness).unwrap();
     assert_eq!(genome, best.genome);
 

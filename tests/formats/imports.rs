@@ -4,8 +4,8 @@ use crate::formats::course::fixture;
 use crate::support::{TINY, World};
 use expect_test::expect;
 use islands::archipelago::{Digest, lockstep};
-use islands::creature::Gene;
 use islands::creature::encodings::course::VALUE_MAX;
+use islands::creature::{Course, Gene};
 use islands::evolution::Founders;
 use islands::formats::genome_csv;
 use islands::runs::config::Config;
@@ -60,7 +60,8 @@ fn a_folder_of_files_in_any_state_is_read_and_what_was_refused_is_said() {
     assert_eq!((&report["read"], &report["out"]), (&json!(3), &json!("genomes")));
     assert_eq!(report["refused"].as_array().unwrap().len(), 5);
     assert_eq!(report["clamped"], json!([{"file": "elites/old/elite_0.csv", "values": 17}]));
-    let imported = |name: &str| genome_csv::read(world.read(name).as_bytes()).unwrap();
+    let imported =
+        |name: &str| genome_csv::read(&Course::DEFAULT, world.read(name).as_bytes()).unwrap();
     assert_eq!(imported("genomes/elite_0.csv").genome, [Gene([0.25; 17])]);
     assert_eq!(imported("genomes/elite_0-2.csv").genome, [Gene([VALUE_MAX; 17])]);
     assert_eq!(imported("genomes/elite_1.csv").genome.len(), 2);
@@ -81,8 +82,10 @@ fn files_with_more_columns_are_read_once_it_is_said_which_to_leave_out() {
     world.write("mixed.csv", format!("{}\n{}\n", with(5, "0.9"), cells.join(",")));
     world.json("import 18.csv mixed.csv --drop-column 6 --out a --json");
     world.json("import 19.csv --drop-column 18 --drop-column 19 --out b --json");
-    let read = |name: &str| genome_csv::read(world.read(name).as_bytes()).unwrap().genome;
-    let plain = genome_csv::read(cells.join(",").as_bytes()).unwrap().genome;
+    let read = |name: &str| {
+        genome_csv::read(&Course::DEFAULT, world.read(name).as_bytes()).unwrap().genome
+    };
+    let plain = genome_csv::read(&Course::DEFAULT, cells.join(",").as_bytes()).unwrap().genome;
     assert_eq!((read("a/18.csv"), read("b/19.csv")), (plain.clone(), plain.clone()));
     assert_eq!(read("a/mixed.csv"), [plain[0], plain[0]]);
     let evaluated = world.json("evaluate 18.csv --profile coursework --drop-column 6 --json");
@@ -172,7 +175,9 @@ fn elites() -> World {
 }
 
 fn founders() -> Vec<Vec<Gene>> {
-    let read = |i| genome_csv::read(fixture(&format!("genome_{i}.csv")).as_bytes()).unwrap();
+    let read = |i| {
+        genome_csv::read(&Course::DEFAULT, fixture(&format!("genome_{i}.csv")).as_bytes()).unwrap()
+    };
     (0..5).map(|i| read(i).genome).collect()
 }
 

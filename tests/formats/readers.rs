@@ -2,7 +2,7 @@
 
 use crate::formats::course::{FIXTURES, fixture};
 use crate::physics::bodies::{creature, locomotion, written};
-use islands::creature::{Creature, Joint, JointKind, Link, Motor, Profile, Shape};
+use islands::creature::{Course, Creature, Joint, JointKind, Link, Motor, Profile, Shape};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
@@ -17,7 +17,9 @@ const NEAR: f64 = 1e-8;
 #[test]
 fn urdf_rs_finds_the_body_of_every_genome_of_the_course() {
     for i in 0..FIXTURES {
-        let genome = genome_csv::read(fixture(&format!("genome_{i}.csv")).as_bytes()).unwrap();
+        let genome =
+            genome_csv::read(&Course::DEFAULT, fixture(&format!("genome_{i}.csv")).as_bytes())
+                .unwrap();
         for profile in Profile::ALL {
             let creature = creature(profile, &genome.genome);
             assert_found_alike(&creature, &format!("genome {i} as {profile}"));

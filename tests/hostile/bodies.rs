@@ -90,14 +90,14 @@ fn is_sound<T: Serialize + DeserializeOwned>(path: &Path) -> (usize, bool) {
 
 /// A genome.
 pub fn genome_csv(data: &[u8]) -> bool {
-    let read = match genome_csv::read(data) {
+    let read = match genome_csv::read(&Course::DEFAULT, data) {
         Ok(read) => read,
         Err(error) => return refused(&error.to_string()),
     };
     assert!(is_valid(&read.genome));
     let mut written = Vec::new();
     genome_csv::write(&read.genome, &mut written).expect("memory takes everything");
-    let again = genome_csv::read(written.as_slice()).expect("we wrote it");
+    let again = genome_csv::read(&Course::DEFAULT, written.as_slice()).expect("we wrote it");
     assert_eq!(bits(&again.genome), bits(&read.genome));
     assert_eq!(again.clamped, []);
     for profile in Profile::ALL {

@@ -4,7 +4,7 @@ use super::pieces::{self, RUN_ID, SETTINGS, Sum, archipelago, part, place};
 use super::wire;
 use crate::formats::course::fixture;
 use islands::archipelago::{Step, lockstep};
-use islands::creature::{Creature, Gene, Profile, express};
+use islands::creature::{Course, Creature, Gene, Profile, express};
 use islands::formats::metrics::{self, Row};
 use islands::formats::{genome_csv, urdf};
 use islands::runs::config::Config;
@@ -77,7 +77,8 @@ pub fn genomes() -> Vec<Vec<u8>> {
 }
 
 pub fn urdfs() -> Vec<Vec<u8>> {
-    let genome = genome_csv::read(fixture("genome_1.csv").as_bytes()).unwrap().genome;
+    let genome =
+        genome_csv::read(&Course::DEFAULT, fixture("genome_1.csv").as_bytes()).unwrap().genome;
     let Creature { morphology, controller } = express(&genome, Profile::Lecture, 4).unwrap();
     let mut ours = Vec::new();
     urdf::write(&morphology, &controller, "ours", &mut ours).unwrap();

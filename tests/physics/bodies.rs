@@ -37,7 +37,9 @@ fn there_and_back(creature: &Creature) -> Creature {
 #[test]
 fn every_genome_of_the_course_is_the_same_body_after_a_journey_through_urdf() {
     for i in 0..FIXTURES {
-        let genome = genome_csv::read(fixture(&format!("genome_{i}.csv")).as_bytes()).unwrap();
+        let genome =
+            genome_csv::read(&Course::DEFAULT, fixture(&format!("genome_{i}.csv")).as_bytes())
+                .unwrap();
         for profile in Profile::ALL {
             let creature = creature(profile, &genome.genome);
             assert_eq!(there_and_back(&creature), creature, "genome {i} as {profile}");
@@ -234,6 +236,6 @@ fn what_cannot_be_exported_is_refused_with_the_reason() {
         cannot use half.urdf: the links do not make one tree: there is no link
         cannot use half.urdf: the links do not make one tree: there is no link"#]].assert_eq(&sentences.join("\n"));
     let creature = locomotion(Profile::Coursework, 1)
-        .express(&genome_csv::read(many.join("\n").as_bytes()).unwrap().genome);
+        .express(&genome_csv::read(&Course::DEFAULT, many.join("\n").as_bytes()).unwrap().genome);
     assert!(creature.is_err(), "over {COURSEWORK_LINKS_MAX} links");
 }

@@ -28,7 +28,9 @@ fn a_replay_shows_the_simulation_that_got_the_score() {
     assert!(ending.stdout.contains(&score), "{ending:?}");
     assert!(ending.stdout.ends_with("view it:  rerun champion.rrd\n"), "{ending:?}");
 
-    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
+    let genome = genome_csv::read(&Course::DEFAULT, world.read("run/champion.csv").as_bytes())
+        .unwrap()
+        .genome;
     let (evaluation, film) = WALK.film(&genome).unwrap();
     assert_eq!(run["best_fitness"], evaluation.fitness.get());
     Recording::read(&world.path("champion.rrd")).assert_ends_with(0, &film, Task::Walk);
@@ -52,7 +54,8 @@ fn several_creatures_race_in_one_replay() {
     assert_eq!(ending.code, Some(0), "{ending:?}");
     let recording = Recording::read(&world.path("race.rrd"));
     for (lane, i) in [(0, 1), (1, 2)] {
-        let genome = genome_csv::read(world.read(&course(i)).as_bytes()).unwrap().genome;
+        let genome =
+            genome_csv::read(&Course::DEFAULT, world.read(&course(i)).as_bytes()).unwrap().genome;
         let (_, film) = problem.film(&genome).unwrap();
         recording.assert_ends_with(lane, &film, Task::Course);
     }
@@ -70,7 +73,9 @@ fn the_ancestors_of_a_champion_are_bred_again_from_a_random_body_on() {
     assert_eq!(*rows.last().unwrap(), "view it:  rerun run/ancestry.rrd");
 
     let recording = Recording::read(&world.path("run/ancestry.rrd"));
-    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
+    let genome = genome_csv::read(&Course::DEFAULT, world.read("run/champion.csv").as_bytes())
+        .unwrap()
+        .genome;
     let (_, film) = WALK.film(&genome).unwrap();
     let last = rows.len() as u32 - 2;
     recording.assert_ends_with(last, &film, Task::Walk);
@@ -133,7 +138,9 @@ fn the_ancestors_of_a_run_that_began_with_genomes_are_bred_again_from_them() {
     let rows: Vec<&str> = ending.stdout.lines().collect();
     assert!(rows.len() > 2 && rows[0].ends_with("founder"), "{ending:?}");
 
-    let genome = genome_csv::read(world.read("run/champion.csv").as_bytes()).unwrap().genome;
+    let genome = genome_csv::read(&Course::DEFAULT, world.read("run/champion.csv").as_bytes())
+        .unwrap()
+        .genome;
     let problem = Config::read(&RunDir::at(world.path("run")).config()).unwrap().locomotion();
     let (_, film) = problem.film(&genome).unwrap();
     let last = rows.len() as u32 - 2;
@@ -165,7 +172,7 @@ fn genomes_in_any_state_and_bodies_race() {
         task: Task::Course,
         ..Locomotion::DEFAULT
     };
-    let genes = genome_csv::read(genome.as_bytes()).unwrap().genome;
+    let genes = genome_csv::read(&Course::DEFAULT, genome.as_bytes()).unwrap().genome;
     let (evaluation, film) = problem.film(&genes).unwrap();
     let recording = Recording::read(&world.path("wide.rrd"));
     for lane in 0..2 {

@@ -4,6 +4,7 @@ use crate::app::args::cli::EvaluateArgs;
 use crate::app::args::terrain_args;
 use crate::app::console::{Stopwatch, print};
 use crate::app::genomes::Specimen;
+use crate::creature::Encoding;
 use crate::evolution::{Evaluation, Problem};
 use crate::problems::{Locomotion, Validation};
 use crate::runs::catalogue::Visitor;
@@ -66,9 +67,9 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
         return config.visit(Examiner { args, config: &config });
     }
     let problem = config.locomotion();
-    let read = |path: &PathBuf| Specimen::read(path, &args.changes);
+    let read = |path: &PathBuf| Specimen::read(path, &problem.encoding, &args.changes);
     let specimens: Vec<_> = args.genomes.iter().map(read).collect::<Result<_, _>>()?;
-    let fresh = |specimen: &Specimen, trials| match specimen {
+    let fresh = |specimen: &Specimen<_>, trials| match specimen {
         Specimen::Genome(genome) => problem.fresh(genome, Some(trials)),
         Specimen::Body(body) => problem.validate_in_each(&body.creature, trials),
     };
@@ -76,8 +77,11 @@ pub fn run(args: &EvaluateArgs) -> Result<(), Failure> {
 }
 
 /// Scores creatures, the dearest first.
-fn try_out(problem: &Locomotion, specimens: &[&Specimen]) -> Vec<Evaluation> {
-    let cost = |specimen: &&Specimen| match specimen {
+fn try_out<E: Encoding>(
+    problem: &Locomotion<E>,
+    specimens: &[&Specimen<E::Gene>],
+) -> Vec<Evaluation> {
+    let cost = |specimen: &&Specimen<E::Gene>| match specimen {
         Specimen::Genome(genome) => problem.cost(genome),
         Specimen::Body(body) => body.link_names.len() as u64 * problem.steps(),
     };

@@ -3,8 +3,9 @@
 use crate::app::args::cli::{ExportArgs, Format};
 use crate::app::console::print;
 use crate::app::genomes::Specimen;
-use crate::creature::{Creature, Reading};
-use crate::formats::{course, genome_csv, mjcf, motion, stl, urdf};
+use crate::creature::{Creature, Encoding};
+use crate::formats::{genome_csv, mjcf, motion, stl, urdf};
+use crate::problems::Locomotion;
 use crate::runs::Failure;
 use crate::runs::subject::Subject;
 use std::fs::File;
@@ -21,7 +22,10 @@ const SIZES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// # Errors
 /// If it cannot be read, said in that format, or written.
 pub fn run(args: &ExportArgs) -> Result<(), Failure> {
-    let problem = args.trial.config()?.locomotion();
+    export(args, &args.trial.config()?.locomotion())
+}
+
+fn export<E: Encoding>(args: &ExportArgs, problem: &Locomotion<E>) -> Result<(), Failure> {
     if !SIZES.contains(&args.size) {
         return Err(Failure::usage("--size must be from 0.000001 to 1000000"));
     }
@@ -31,12 +35,12 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
              knows the terrain",
         ));
     }
-    let specimen = Specimen::read(&args.genome, &args.trial.changes)?;
+    let encoding = &problem.encoding;
+    let specimen = Specimen::read(&args.genome, encoding, &args.trial.changes)?;
     if args.format == Format::Csv {
-        return export_genome(args, &problem.encoding.reading(), &specimen);
+        return export_genome(args, encoding, &specimen);
     }
-    let creature =
-        specimen.creature(&args.genome, problem.encoding.reading(), problem.encoding.links_max)?;
+    let creature = specimen.creature(&args.genome, encoding)?;
     let name = name(&args.genome);
     let Creature { morphology, controller } = &creature;
     let out = &args.out;
@@ -53,12 +57,16 @@ pub fn run(args: &ExportArgs) -> Result<(), Failure> {
     }
 }
 
-fn export_genome(args: &ExportArgs, reading: &Reading, specimen: &Specimen) -> Result<(), Failure> {
+fn export_genome<E: Encoding>(
+    args: &ExportArgs,
+    encoding: &E,
+    specimen: &Specimen<E::Gene>,
+) -> Result<(), Failure> {
     let path = args.genome.display();
     let Specimen::Genome(genome) = specimen else {
         return Err(Failure::usage(format!("{path} is a body and has no genome to write")));
     };
-    let said = course::translate(genome, reading);
+    let said = encoding.exported(genome);
     let said = said.map_err(|error| Failure::usage(format!("cannot export {path}: {error}")))?;
     write(&args.out, |file| genome_csv::write(&said, file))
 }

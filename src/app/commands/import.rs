@@ -4,9 +4,9 @@ use crate::app::args::cli::ImportArgs;
 use crate::app::console::{print, say};
 use crate::app::genomes;
 use crate::app::table::harmless;
-use crate::creature::encodings::course::profile;
-use crate::creature::{self, Gene, Profile, Reading};
-use crate::formats::{course, genome_csv};
+use crate::creature::encodings::course::profile::COURSEWORK_LINKS_MAX;
+use crate::creature::{Course, Encoding, Gene, Profile, Scales};
+use crate::formats::genome_csv;
 use crate::runs::{Failure, genome_files, seeds};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -42,17 +42,22 @@ struct Clamped {
 /// # Errors
 /// With exit code 1 if some were refused, with 2 if nothing can be done.
 pub fn run(args: &ImportArgs) -> Result<(), Failure> {
-    let reading = Reading { profile: args.profile, scales: args.changes.scales() };
-    let checked = reading.scales.check(reading.profile);
+    let encoding = Course {
+        profile: args.profile,
+        scales: args.changes.scales(),
+        links_max: COURSEWORK_LINKS_MAX,
+        ..Course::DEFAULT
+    };
+    let checked = encoding.scales.check(encoding.profile);
     checked.map_err(|error| Failure::usage(error.to_string()))?;
-    let dropped = genome_files::dropped(&args.changes.drop_columns)?;
+    let dropped = genome_files::dropped(&args.changes.drop_columns, encoding.columns().len())?;
     let files = seeds::gather(&args.files)?;
     args.out.as_deref().map(make_folder).transpose()?;
     let outs = names(&files, args.out.as_deref());
     let results: Vec<Result<usize, String>> = files
         .par_iter()
         .zip(&outs)
-        .map(|(file, out)| take_in(file, out.as_deref(), &reading, dropped))
+        .map(|(file, out)| take_in(file, out.as_deref(), &encoding, dropped))
         .collect();
     let report = report(files, results, args.out.clone());
     show(&report);
@@ -70,13 +75,13 @@ pub fn run(args: &ImportArgs) -> Result<(), Failure> {
 fn take_in(
     file: &Path,
     out: Option<&Path>,
-    reading: &Reading,
+    encoding: &Course,
     dropped: &[usize],
 ) -> Result<usize, String> {
-    let read = genomes::read_quietly(file, dropped)?;
-    let genome = in_own_scales(&read.genome, reading)?;
-    creature::count_links(&genome, reading.profile, profile::COURSEWORK_LINKS_MAX)
-        .map_err(|error| error.to_string())?;
+    let read = genomes::read_quietly(encoding, file, dropped)?;
+    let genome = in_own_scales(&read.genome, encoding)?;
+    let own = Course { scales: Scales::NONE, ..*encoding };
+    own.count_links(&genome).map_err(|error| error.to_string())?;
     let Some(out) = out else { return Ok(read.clamped.len()) };
     let write = || {
         let mut file = BufWriter::new(File::create(out)?);
@@ -88,11 +93,11 @@ fn take_in(
 }
 
 /// A genome in the scales that its profile has by itself.
-fn in_own_scales(genome: &[Gene], reading: &Reading) -> Result<Vec<Gene>, String> {
-    if reading.profile != Profile::Coursework {
+fn in_own_scales(genome: &[Gene], encoding: &Course) -> Result<Vec<Gene>, String> {
+    if encoding.profile != Profile::Coursework {
         return Ok(genome.to_vec());
     }
-    course::translate(genome, reading).map_err(|error| {
+    encoding.exported(genome).map_err(|error| {
         format!("{error}; leave it as it is, and give --scale to the command that uses it")
     })
 }

@@ -20,7 +20,7 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     let scales = args.changes.scales();
     let config = args.settings.over(Config { scales, ..Config::default() });
     config.check()?;
-    let (links_max, reading) = (config.max_links, config.locomotion().encoding.reading());
+    let encoding = config.locomotion().encoding;
     if let Some(rows) = genomes::network(&args.genome)? {
         show_network(&rows, args);
         return Ok(());
@@ -28,7 +28,7 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
     if args.dot {
         return Err(Failure::usage("--dot draws networks, and this is none: leave it out"));
     }
-    match Specimen::read(&args.genome, &args.changes)? {
+    match Specimen::read(&args.genome, &encoding, &args.changes)? {
         Specimen::Body(body) if args.json => {
             print(&json(&BodyInspection::new(&body, source(&args.genome))));
         }
@@ -36,6 +36,7 @@ pub fn run(args: &InspectArgs) -> Result<(), Failure> {
         Specimen::Genome(genome) => {
             let wrong =
                 |error| Failure::usage(format!("cannot build {}: {error}", args.genome.display()));
+            let (links_max, reading) = (config.max_links, encoding.reading());
             let development = creature::develop(&genome, reading, links_max).map_err(wrong)?;
             match args.json {
                 true => print(&json(&Inspection::new(

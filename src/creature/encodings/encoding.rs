@@ -13,8 +13,25 @@ pub trait Encoding: Clone + std::fmt::Debug + PartialEq + Send + Sync {
     /// What genomes are sequences of.
     type Gene: Gene;
 
+    /// What a card says of it beside the task, in Markdown.
+    fn title(&self) -> String;
+
     /// What each value of a gene is called.
     fn columns(&self) -> Vec<&'static str>;
+
+    /// What to do about a file with so many columns, which are not [`Encoding::columns`], if it is known where there are
+    /// such files.
+    fn advice(&self, _columns: usize) -> Option<&'static str> {
+        None
+    }
+
+    /// A genome for the program that the encoding comes from; by default as it is.
+    ///
+    /// # Errors
+    /// What that program could not build, in a sentence.
+    fn exported(&self, genome: &[Self::Gene]) -> Result<Vec<Self::Gene>, String> {
+        Ok(genome.to_vec())
+    }
 
     /// Draws a gene.
     fn random_gene(&self, rng: &mut Stream) -> Self::Gene;

@@ -25,6 +25,11 @@ pub trait Subject: Problem + Clone + Send {
     /// What is to be done, as a card says it in Markdown.
     fn title(&self) -> String;
 
+    /// How many columns each line of a genome's file has, where files may have more that are to be left out.
+    fn columns(&self) -> usize {
+        0
+    }
+
     /// Reads a genome; columns that are to be left out are counted from 1.
     ///
     /// # Errors

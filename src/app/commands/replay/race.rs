@@ -20,13 +20,12 @@ use std::path::{Path, PathBuf};
 pub fn film(args: &ReplayArgs, paths: &[PathBuf]) -> Result<PathBuf, Failure> {
     let studio = Studio::new(args, &Config::default())?;
     let out = args.out.clone().unwrap_or_else(|| paths[0].with_extension("rrd"));
-    let read = |path| Specimen::read(path, &args.changes);
+    let encoding = studio.problem.encoding;
+    let read = |path| Specimen::read(path, &encoding, &args.changes);
     let specimens: Vec<_> = paths.iter().map(|path| read(path)).collect::<Result<_, _>>()?;
     let mut shots = Vec::new();
     for (specimen, path) in specimens.iter().zip(paths) {
-        let encoding = studio.problem.encoding;
-        let creature = specimen.creature(path, encoding.reading(), encoding.links_max)?;
-        shots.push(studio.shoot(creature));
+        shots.push(studio.shoot(specimen.creature(path, &encoding)?));
     }
     let lanes = (0..).zip(paths).map(|(hue, path)| Lane { title: name(path), hue });
     let scores = shots.iter().map(|shot| shot.evaluation.fitness);

@@ -69,7 +69,7 @@ mod tests {
         }
         let read = |generation, count| {
             let file = File::open(dir.panic(3, generation, count)).ok()?;
-            Some(genome_csv::read(file).unwrap().genome)
+            Some(genome_csv::read(&problem.encoding, file).unwrap().genome)
         };
         assert_eq!(read(5, 6), Some(genome(6)));
         assert_eq!(read(6, 2), Some(genome(2)));

@@ -3,7 +3,8 @@
 //! A genome is a sequence of [`Gene`]s, 17 numbers each ([`PARAMETERS`]). A [`Profile`] says what the numbers mean, and
 //! decodes each gene into [`Traits`]; [`Scales`] may change some. [`genome`] says which gene hangs on which, and
 //! [`expansion`] copies links by their recurrence into a tree. [`development`] does it all, and gives the tree a body and
-//! its joints motors. [`Course`] is the whole as an [`Encoding`].
+//! its joints motors. [`translation`] says genomes in the terms of the course's program. [`Course`] is the whole as an
+//! [`Encoding`].
 
 pub mod development;
 pub mod expansion;
@@ -15,6 +16,7 @@ pub mod parameters;
 pub mod profile;
 pub mod scales;
 pub mod traits;
+pub mod translation;
 
 pub use development::{Development, count_links, develop, express};
 pub use expansion::Copy;
@@ -64,6 +66,26 @@ impl Encoding for Course {
 
     fn columns(&self) -> Vec<&'static str> {
         PARAMETERS.iter().map(|parameter| parameter.name).collect()
+    }
+
+    /// Changed course programs write 18 and 19 numbers a gene.
+    fn advice(&self, columns: usize) -> Option<&'static str> {
+        match columns {
+            18 => Some("leave out the additional one, link-geometry, usually with --drop-column 6"),
+            19 => Some(
+                "leave out the additional ones, sensor gain and bias, usually with --drop-column 18 --drop-column 19",
+            ),
+            _ => None,
+        }
+    }
+
+    /// In the terms of the course's program.
+    fn exported(&self, genome: &[Gene]) -> Result<Vec<Gene>, String> {
+        translation::translate(genome, &self.reading()).map_err(|error| error.to_string())
+    }
+
+    fn title(&self) -> String {
+        format!("profile **{}**", self.profile)
     }
 
     fn random_gene(&self, rng: &mut Stream) -> Gene {

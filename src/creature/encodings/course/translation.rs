@@ -1,8 +1,11 @@
 //! Genomes said in the course's terms, for its program to read.
 
-use crate::creature::encodings::course::SolidKind;
-use crate::creature::encodings::course::{PARAMETER_COUNT, PARAMETERS};
-use crate::creature::{Gene, Profile, Reading, Traits, Waveform};
+use super::gene::{Gene, PARAMETER_COUNT};
+use super::parameters::PARAMETERS;
+use super::profile::Profile;
+use super::scales::Reading;
+use super::traits::{SolidKind, Traits};
+use crate::creature::brain::Waveform;
 
 /// What a course's program cannot build: the gene, from 1, and why.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -68,9 +71,9 @@ fn foreign(traits: &Traits, reading: &Reading) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::development::express;
+    use super::super::scales::{Rescaling, Scales};
     use super::*;
-    use crate::creature::encodings::course::Rescaling;
-    use crate::creature::{Scales, express};
     use expect_test::expect;
 
     fn coursework(changes: &[&str]) -> Reading {
