@@ -22,7 +22,7 @@ pub mod encodings;
 pub mod living;
 
 pub use body::{Inertia, Joint, JointKind, Link, Morphology, Shape};
-pub use brain::{Brain, Controller, Motor, Waveform};
+pub use brain::{Brain, Controller, Motor, Wave, Waveform};
 pub use encodings::course::{
     Copy, Development, Gene, PARAMETERS, Parameter, Profile, Reading, Scales, Traits, count_links,
     develop, express,

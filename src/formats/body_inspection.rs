@@ -1,7 +1,7 @@
 //! A body that was read, as JSON: what counts of it here.
 
 use super::urdf::ReadBody;
-use crate::creature::{Joint, JointKind, Link, Motor, Shape};
+use crate::creature::{Joint, JointKind, Link, Motor, Shape, Wave};
 use nalgebra::Isometry3;
 use serde::Serialize;
 
@@ -71,20 +71,21 @@ impl BodyInspection {
     pub fn new(body: &ReadBody, source: impl Into<String>) -> Self {
         let morphology = &body.creature.morphology;
         let poses = morphology.rest_poses();
-        let motors = &body.creature.controller.motors;
-        let links = morphology.links.iter().zip(&poses).zip(motors).zip(&body.link_names);
+        let controller = &body.creature.controller;
+        let driven = |index: usize| Some((controller.motors[index]?, *controller.wave(index)?));
+        let links = morphology.links.iter().zip(&poses).zip(&body.link_names).enumerate();
         Self {
             source: source.into(),
             name: body.name.clone(),
-            control_period_s: body.creature.controller.period_s,
+            control_period_s: controller.period_s,
             root_rpy: super::rotation::roll_pitch_yaw_rad(&morphology.root_rotation),
             notes: body.notes.clone(),
-            links: links.map(|(((l, pose), m), name)| link(name, l, pose, m.as_ref())).collect(),
+            links: links.map(|(i, ((l, pose), name))| link(name, l, pose, driven(i))).collect(),
         }
     }
 }
 
-fn link(name: &str, link: &Link, pose: &Isometry3<f64>, motor: Option<&Motor>) -> BodyLink {
+fn link(name: &str, link: &Link, pose: &Isometry3<f64>, driven: Option<(Motor, Wave)>) -> BodyLink {
     let m = link.inertia_kg_m2();
     let kind = link.joint.as_ref().map(|joint| joint.kind);
     BodyLink {
@@ -102,11 +103,11 @@ fn link(name: &str, link: &Link, pose: &Isometry3<f64>, motor: Option<&Motor>) -
             Some(JointKind::Revolute(axis)) => Some(axis.into()),
             _ => None,
         },
-        motor: motor.map(|motor| BodyMotor {
-            waveform: motor.waveform.to_string(),
-            amplitude_rad_s: motor.amplitude_rad_s,
-            phase_start_rad: motor.phase_start_rad,
-            phase_step_rad: motor.phase_step_rad,
+        motor: driven.map(|(motor, wave)| BodyMotor {
+            waveform: wave.waveform.to_string(),
+            amplitude_rad_s: wave.amplitude_rad_s,
+            phase_start_rad: wave.phase_start_rad,
+            phase_step_rad: wave.phase_step_rad,
             torque_nm_max: motor.torque_nm_max,
         }),
     }

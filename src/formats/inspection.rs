@@ -5,7 +5,7 @@
 //! and take none away.
 
 use crate::creature::{
-    Copy, Creature, Development, Joint, JointKind, Motor, Profile, Traits, Waveform,
+    Copy, Creature, Development, Joint, JointKind, Motor, Profile, Traits, Wave, Waveform,
 };
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -159,7 +159,8 @@ fn link(
     let copy = &development.tree[index];
     let traits = &development.traits[copy.gene];
     let link = &creature.morphology.links[index];
-    let motor = creature.controller.motors[index].as_ref();
+    let controller = &creature.controller;
+    let driven = controller.motors[index].as_ref().zip(controller.wave(index));
     LinkInspection {
         name: copy.name(index),
         parent: copy.parent.map(|parent| development.tree[parent].name(parent)),
@@ -173,7 +174,7 @@ fn link(
             shape: link.shape.name(),
         }),
         joint: link.joint.as_ref().map(|joint| self::joint(joint, copy, traits, profile)),
-        motor: motor.map(|motor| self::motor(motor, creature.controller.period_s, profile)),
+        motor: driven.map(|(motor, wave)| self::motor(motor, wave, controller.period_s, profile)),
     }
 }
 
@@ -198,14 +199,14 @@ fn joint(joint: &Joint, copy: &Copy, traits: &Traits, profile: Profile) -> Joint
     }
 }
 
-fn motor(motor: &Motor, period_s: f64, profile: Profile) -> MotorInspection {
+fn motor(motor: &Motor, wave: &Wave, period_s: f64, profile: Profile) -> MotorInspection {
     MotorInspection {
-        waveform: motor.waveform,
-        freq: motor.phase_step_rad,
+        waveform: wave.waveform,
+        freq: wave.phase_step_rad,
         more: in_full(profile).then_some(MoreOfMotor {
-            freq_hz: motor.phase_step_rad / (TAU * period_s),
-            amplitude_rad_s: motor.amplitude_rad_s,
-            phase_start_rad: motor.phase_start_rad,
+            freq_hz: wave.phase_step_rad / (TAU * period_s),
+            amplitude_rad_s: wave.amplitude_rad_s,
+            phase_start_rad: wave.phase_start_rad,
             torque_nm_max: motor.torque_nm_max,
         }),
     }

@@ -6,7 +6,7 @@
 //! update in radians; `control_period` is the seconds between updates.
 
 use super::xml::{Escaped, Triple};
-use crate::creature::{Creature, Joint, JointKind, Link, Morphology, Motor, Shape};
+use crate::creature::{Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Wave};
 use crate::problems::Task;
 use crate::simulation::trial::GRIP;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
@@ -39,9 +39,10 @@ pub fn write(creature: &Creature, name: &str, mut output: impl Write) -> io::Res
         gravity = trial.gravity_m_s2,
         period_s = controller.period_s,
     )?;
-    let motors = || controller.motors.iter().enumerate().filter_map(|(i, m)| Some((i, (*m)?)));
-    for (index, motor) in motors() {
-        write_wave(index, &motor, &mut output)?;
+    for index in 0..morphology.links.len() {
+        if let Some(wave) = controller.wave(index) {
+            write_wave(index, wave, &mut output)?;
+        }
     }
     writeln!(
         output,
@@ -52,14 +53,16 @@ pub fn write(creature: &Creature, name: &str, mut output: impl Write) -> io::Res
     )?;
     Bodies { morphology, output: &mut output }.write(0, 4)?;
     writeln!(output, "  </worldbody>\n  <actuator>")?;
-    for (index, motor) in motors() {
-        write_actuator(morphology, index, &motor, &mut output)?;
+    for (index, motor) in controller.motors.iter().enumerate() {
+        if let Some(motor) = motor {
+            write_actuator(morphology, index, motor, &mut output)?;
+        }
     }
     writeln!(output, "  </actuator>\n</mujoco>")
 }
 
-fn write_wave(index: usize, motor: &Motor, output: &mut impl Write) -> io::Result<()> {
-    let Motor { waveform, amplitude_rad_s, phase_start_rad, phase_step_rad, .. } = motor;
+fn write_wave(index: usize, wave: &Wave, output: &mut impl Write) -> io::Result<()> {
+    let Wave { waveform, amplitude_rad_s, phase_start_rad, phase_step_rad } = wave;
     writeln!(
         output,
         r#"    <text name="motor_{index}" data="{waveform} {amplitude_rad_s} {phase_start_rad} {phase_step_rad}"/>"#

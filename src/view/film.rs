@@ -155,7 +155,7 @@ impl Film {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::{Brain, Controller, Morphology};
+    use crate::creature::{Controller, Morphology};
     use crate::simulation::Ground;
     use crate::simulation::trajectory::Trajectory;
     use nalgebra::UnitQuaternion;
@@ -236,7 +236,7 @@ mod tests {
             label: String::new(),
             short_label: String::new(),
             morphology: Morphology { links: vec![], root_rotation: UnitQuaternion::identity() },
-            controller: Controller { period_s: 0.1, motors: vec![], brain: Brain::Waves },
+            controller: Controller::of_waves(0.1, []),
             trajectory,
         }
     }

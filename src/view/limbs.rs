@@ -6,8 +6,7 @@
 use super::extent::{along_z, every};
 use super::take::Take;
 use super::{ViewError, palette};
-use crate::creature::{JointKind, Shape};
-use crate::creature::{Link, Motor};
+use crate::creature::{JointKind, Link, Shape, Wave};
 use crate::simulation::trajectory::Pose;
 use nalgebra::{Isometry3, Quaternion as Rotation, Translation3, UnitQuaternion, Vector3, vector};
 use rerun::{Boxes3D, Capsules3D, Color, Cylinders3D, FillMode, Quaternion, RecordingStream};
@@ -139,14 +138,15 @@ impl<const N: usize> Kind<N> {
 /// A pin through a driven joint, along its axis.
 struct Pin {
     link: usize,
-    motor: Motor,
+    /// What its motor follows.
+    wave: Wave,
     /// Where the pin is in the link's frame, along z.
     link_from_pin: Isometry3<f64>,
     radius_m: f64,
 }
 
 impl Pin {
-    fn of(index: usize, link: &Link, motor: Motor) -> Option<Self> {
+    fn of(index: usize, link: &Link, wave: Wave) -> Option<Self> {
         let joint = link.joint.as_ref()?;
         let JointKind::Revolute(axis) = joint.kind else { return None };
         let turn = UnitQuaternion::rotation_between(&Vector3::z(), &axis)
@@ -154,7 +154,7 @@ impl Pin {
         let along = Isometry3::from_parts(Translation3::identity(), turn);
         let half = link.shape.half_extents_m();
         let link_from_pin = joint.joint_from_link.inverse() * along;
-        Some(Self { link: index, motor, link_from_pin, radius_m: half.x.min(half.z) })
+        Some(Self { link: index, wave, link_from_pin, radius_m: half.x.min(half.z) })
     }
 
     fn at(&self, poses: &[Pose]) -> Isometry3<f64> {
@@ -171,15 +171,15 @@ impl Pin {
             return 0.0;
         }
         let updates = (scored_s / period_s).floor() + 1.0;
-        let phase = (self.motor.phase_start_rad + updates * self.motor.phase_step_rad) % TAU;
-        self.motor.waveform.at(phase)
+        let phase = (self.wave.phase_start_rad + updates * self.wave.phase_step_rad) % TAU;
+        self.wave.waveform.at(phase)
     }
 }
 
 fn pins(take: &Take<'_>) -> Vec<Pin> {
     let clip = take.clip();
-    let links = clip.morphology.links.iter().zip(&clip.controller.motors).enumerate();
-    links.filter_map(|(index, (link, motor))| Pin::of(index, link, (*motor)?)).collect()
+    let links = clip.morphology.links.iter().enumerate();
+    links.filter_map(|(index, link)| Pin::of(index, link, *clip.controller.wave(index)?)).collect()
 }
 
 fn show_pins(rec: &RecordingStream, take: &Take<'_>) -> Result<(), ViewError> {

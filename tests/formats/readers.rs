@@ -2,7 +2,7 @@
 
 use crate::formats::course::{FIXTURES, fixture};
 use crate::physics::bodies::{creature, locomotion, written};
-use islands::creature::{Course, Creature, Joint, JointKind, Link, Motor, Profile, Shape};
+use islands::creature::{Course, Creature, Joint, JointKind, Link, Profile, Shape};
 use islands::evolution::Problem;
 use islands::formats::genome_csv;
 use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
@@ -71,8 +71,10 @@ fn assert_found_alike(creature: &Creature, whose: &str) {
             let found = &robot.joints[index - 1];
             let ends = [&found.parent.link, &found.child.link];
             assert_eq!(ends, [joint.parent, index].map(|end| &robot.links[end].name), "{whose}");
-            let motor = controller.motors[index].as_ref();
-            assert_same_joint(found, joint, motor, &whose);
+            let torque_nm = controller.motors[index].map(|motor| motor.torque_nm_max);
+            let speed_rad_s = controller.wave(index).map(|wave| wave.amplitude_rad_s);
+            let drive = [torque_nm, speed_rad_s].map(Option::unwrap_or_default);
+            assert_same_joint(found, joint, drive, &whose);
             let [found, own] = [
                 world_from_link[found.child.link.as_str()],
                 rest[joint.parent] * joint.parent_from_joint,
@@ -128,11 +130,10 @@ fn assert_same_link(
     assert!(off.amax() <= NEAR * own.amax(), "{whose}: {off}");
 }
 
-fn assert_same_joint(found: &urdf_rs::Joint, joint: &Joint, motor: Option<&Motor>, whose: &str) {
+fn assert_same_joint(found: &urdf_rs::Joint, joint: &Joint, drive: [f64; 2], whose: &str) {
     let urdf_rs::JointLimit { lower, upper, effort, velocity, .. } = found.limit;
     assert!(lower <= upper, "{whose}");
-    let own = motor.map_or((0.0, 0.0), |motor| (motor.torque_nm_max, motor.amplitude_rad_s));
-    assert_eq!((effort, velocity), own, "{whose}");
+    assert_eq!([effort, velocity], drive, "{whose}");
     match joint.kind {
         JointKind::Fixed => assert_eq!(found.joint_type, JointType::Fixed, "{whose}"),
         JointKind::Revolute(axis) => {

@@ -3,7 +3,7 @@
 use crate::formats::course::fixture;
 use crate::support::{TINY, World};
 use islands::archipelago::lockstep;
-use islands::creature::{Brain, Controller, Creature, Link, Morphology, Shape};
+use islands::creature::{Controller, Creature, Link, Morphology, Shape};
 use islands::evolution::{Evaluation, Problem};
 use islands::formats::terrain;
 use islands::problems::{Locomotion, RobustBy, Robustness, Task};
@@ -27,7 +27,7 @@ fn pillar(height_m: f64) -> Creature {
     let root_rotation = UnitQuaternion::identity();
     Creature {
         morphology: Morphology { links: vec![link], root_rotation },
-        controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
+        controller: Controller::of_waves(0.1, [None]),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::support::World;
 use islands::archipelago::Champion;
 use islands::creature::{
-    Brain, Controller, Course, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape,
+    Controller, Course, Creature, Gene, Joint, JointKind, Link, Morphology, Motor, Shape, Wave,
     Waveform,
 };
 use islands::evolution::{Evaluation, Fitness, Hurdles, Outcome, Problem};
@@ -74,22 +74,18 @@ fn sling() -> Creature {
         joint_from_link: Isometry3::translation(1.0, 0.0, 0.0),
         kind: JointKind::Revolute(Vector3::z()),
     };
-    let motor = Motor {
+    let wave = Wave {
         waveform: Waveform::Pulse,
         amplitude_rad_s: 1_000.0,
         phase_start_rad: 0.0,
         phase_step_rad: 0.0,
-        torque_nm_max: 6.25,
     };
+    let motor = Motor { torque_nm_max: 6.25 };
     let links =
         vec![cuboid([1.0, 1.0, 0.5], 1e5, None), cuboid([0.1, 0.1, 0.05], 1.0, Some(joint))];
     Creature {
         morphology: Morphology { links, root_rotation: UnitQuaternion::identity() },
-        controller: Controller {
-            period_s: 0.1,
-            motors: vec![None, Some(motor)],
-            brain: Brain::Waves,
-        },
+        controller: Controller::of_waves(0.1, [None, Some((motor, wave))]),
     }
 }
 
@@ -236,7 +232,7 @@ fn ball() -> Creature {
         Link { shape: Shape::Sphere { radius_m: 0.2 }, mass_kg: 5.0, inertia: None, joint: None };
     Creature {
         morphology: Morphology { links: vec![ball], root_rotation: UnitQuaternion::identity() },
-        controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
+        controller: Controller::of_waves(0.1, [None]),
     }
 }
 

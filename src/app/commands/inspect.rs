@@ -4,7 +4,7 @@ use crate::app::args::cli::InspectArgs;
 use crate::app::console::print;
 use crate::app::genomes::{self, Specimen};
 use crate::app::table::lay_out;
-use crate::creature::{self, Development, JointKind, Link, Motor};
+use crate::creature::{self, Controller, Development, JointKind, Link};
 use crate::formats::network_csv::{self, Row};
 use crate::formats::urdf::ReadBody;
 use crate::formats::{BodyInspection, Inspection};
@@ -85,7 +85,7 @@ fn show_genome(development: &Development) {
     for (index, (copy, link)) in development.tree.iter().zip(&creature.morphology.links).enumerate()
     {
         let traits = &development.traits[copy.gene];
-        let [amplitude, torque] = said(creature.controller.motors[index].as_ref());
+        let [amplitude, torque] = said(&creature.controller, index);
         print(&format!(
             "{index:>4}  {:<8} {:>6}  {:<9} {:>8.3}  {:>8.3} {:>9.3}  {:<8} {amplitude:>16} {torque:>11}",
             copy.name(index),
@@ -115,7 +115,7 @@ fn show_body(body: &ReadBody) {
     let links = body.creature.morphology.links.iter().zip(&body.link_names);
     for (index, (link, name)) in links.enumerate() {
         let size = link.shape.half_extents_m() * 2.0;
-        let [amplitude, torque] = said(body.creature.controller.motors[index].as_ref());
+        let [amplitude, torque] = said(&body.creature.controller, index);
         rows.push([
             index.to_string(),
             name.clone(),
@@ -139,9 +139,9 @@ fn joint(link: &Link) -> &'static str {
     }
 }
 
-/// A motor's top speed and torque.
-fn said(motor: Option<&Motor>) -> [String; 2] {
-    motor.map_or_else(Default::default, |motor| {
-        [format!("{:.2}", motor.amplitude_rad_s), format!("{:.1}", motor.torque_nm_max)]
-    })
+/// The top speed and the torque of a link's motor.
+fn said(controller: &Controller, link: usize) -> [String; 2] {
+    let speed = controller.wave(link).map(|wave| format!("{:.2}", wave.amplitude_rad_s));
+    let torque = controller.motors[link].map(|motor| format!("{:.1}", motor.torque_nm_max));
+    [speed, torque].map(Option::unwrap_or_default)
 }

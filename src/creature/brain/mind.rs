@@ -1,7 +1,6 @@
 //! What a brain does, and what it commands.
 
 use super::senses::Senses;
-use super::waveform::Waveform;
 
 /// A brain at work, with its state.
 pub trait Mind {
@@ -13,17 +12,9 @@ pub trait Mind {
     fn command(&mut self, senses: &Senses, targets_rad_s: &mut [f64]);
 }
 
-/// A motor: it drives its hinge towards a speed. Its wave is what [`Brain::Waves`](super::Brain::Waves) commands it by.
+/// A motor: it drives its hinge towards the speed that a brain commands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motor {
-    /// The form of the wave.
-    pub waveform: Waveform,
-    /// The largest target speed, in rad/s.
-    pub amplitude_rad_s: f64,
-    /// The phase before the first update, in radians.
-    pub phase_start_rad: f64,
-    /// Phase gained at each update, in radians.
-    pub phase_step_rad: f64,
     /// The largest torque that it can exert, in newton metres.
     pub torque_nm_max: f64,
 }

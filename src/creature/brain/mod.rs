@@ -19,3 +19,4 @@ pub use mind::{Mind, Motor};
 pub use reflex::Reflex;
 pub use senses::{JointSense, Senses};
 pub use waveform::Waveform;
+pub use waves::Wave;

@@ -1,10 +1,24 @@
 //! The brain that feels nothing: each motor's target speed follows a wave.
 
-use super::mind::{Mind, Motor};
+use super::mind::Mind;
 use super::senses::Senses;
+use super::waveform::Waveform;
 use std::f64::consts::TAU;
 
-impl Motor {
+/// The wave that a motor's target speed follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wave {
+    /// Its form.
+    pub waveform: Waveform,
+    /// The largest target speed, in rad/s.
+    pub amplitude_rad_s: f64,
+    /// The phase before the first update, in radians.
+    pub phase_start_rad: f64,
+    /// Phase gained at each update, in radians.
+    pub phase_step_rad: f64,
+}
+
+impl Wave {
     /// The phase after one more update.
     pub fn advance(&self, phase_rad: f64) -> f64 {
         (phase_rad + self.phase_step_rad) % TAU
@@ -18,15 +32,15 @@ impl Motor {
 
 /// Waves under way.
 pub struct Waves {
-    /// Each link's motor, and the phase that it is at, in radians.
-    motors: Vec<Option<(Motor, f64)>>,
+    /// Each link's wave, and the phase that it is at, in radians.
+    waves: Vec<Option<(Wave, f64)>>,
 }
 
 impl Waves {
     /// Waves before their first update.
-    pub fn new(motors: &[Option<Motor>]) -> Self {
-        let begin = |motor: &Option<Motor>| motor.map(|motor| (motor, motor.phase_start_rad));
-        Self { motors: motors.iter().map(begin).collect() }
+    pub fn new(waves: &[Option<Wave>]) -> Self {
+        let begin = |wave: &Option<Wave>| wave.map(|wave| (wave, wave.phase_start_rad));
+        Self { waves: waves.iter().map(begin).collect() }
     }
 }
 
@@ -36,10 +50,10 @@ impl Mind for Waves {
     }
 
     fn command(&mut self, _: &Senses, targets_rad_s: &mut [f64]) {
-        for (motor, target_rad_s) in self.motors.iter_mut().zip(targets_rad_s) {
-            if let Some((motor, phase_rad)) = motor {
-                *phase_rad = motor.advance(*phase_rad);
-                *target_rad_s = motor.target_rad_s(*phase_rad);
+        for (wave, target_rad_s) in self.waves.iter_mut().zip(targets_rad_s) {
+            if let Some((wave, phase_rad)) = wave {
+                *phase_rad = wave.advance(*phase_rad);
+                *target_rad_s = wave.target_rad_s(*phase_rad);
             }
         }
     }

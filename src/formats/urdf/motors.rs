@@ -1,8 +1,8 @@
 //! What only our own files say, read: the motors, and poses to the last bit.
 
 use super::error::{UrdfError, shortened};
-use super::read::{ExactPose, Robot, Wave};
-use crate::creature::{Brain, Controller, Joint, Morphology, Motor};
+use super::read::{ExactPose, MotorElement, Robot};
+use crate::creature::{Controller, Joint, Morphology, Motor};
 use nalgebra::{Isometry3, UnitQuaternion};
 use std::collections::BTreeMap;
 
@@ -17,28 +17,21 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// If a motor drives no joint.
 pub fn controller(robot: &Robot, joints: &[Option<usize>]) -> Result<Controller, UrdfError> {
-    let mut controller =
-        Controller { period_s: PERIOD_S, motors: vec![None; joints.len()], brain: Brain::Waves };
-    let Some(extension) = &robot.extension else { return Ok(controller) };
-    controller.period_s = extension.period_s;
+    let mut driven = vec![None; joints.len()];
+    let Some(extension) = &robot.extension else {
+        return Ok(Controller::of_waves(PERIOD_S, driven));
+    };
     let links = links(robot, joints);
-    for Wave { joint, line, waveform, amplitude_rad_s, phase_start_rad, phase_step_rad } in
-        &extension.waves
-    {
+    for MotorElement { joint, line, wave } in &extension.motors {
         let unknown = || {
             let (line, what) = (*line, "joint");
             UrdfError::Unknown { line, what, name: shortened(joint) }
         };
         let &(link, element) = links.get(joint.as_str()).ok_or_else(unknown)?;
-        controller.motors[link] = Some(Motor {
-            waveform: *waveform,
-            amplitude_rad_s: *amplitude_rad_s,
-            phase_start_rad: *phase_start_rad,
-            phase_step_rad: *phase_step_rad,
-            torque_nm_max: robot.joints[element].effort_nm,
-        });
+        let motor = Motor { torque_nm_max: robot.joints[element].effort_nm };
+        driven[link] = Some((motor, *wave));
     }
-    Ok(controller)
+    Ok(Controller::of_waves(extension.period_s, driven))
 }
 
 /// Sets the poses to the bits that the file was written from, unless its standard elements say another thing

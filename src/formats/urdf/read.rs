@@ -2,7 +2,7 @@
 
 use super::error::{UrdfError, shortened};
 use super::{EXTENSION, LINKS_MAX};
-use crate::creature::{JointKind, Shape, Waveform};
+use crate::creature::{JointKind, Shape, Wave};
 use nalgebra::{
     Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, UnitVector3, Vector3, vector,
 };
@@ -53,18 +53,15 @@ pub struct JointElement {
 pub struct Extension {
     pub period_s: f64,
     pub root_rotation: Option<UnitQuaternion<f64>>,
-    pub waves: Vec<Wave>,
+    pub motors: Vec<MotorElement>,
     pub poses: Vec<ExactPose>,
 }
 
 #[derive(Debug)]
-pub struct Wave {
+pub struct MotorElement {
     pub joint: String,
     pub line: u32,
-    pub waveform: Waveform,
-    pub amplitude_rad_s: f64,
-    pub phase_start_rad: f64,
-    pub phase_step_rad: f64,
+    pub wave: Wave,
 }
 
 #[derive(Debug)]
@@ -219,22 +216,22 @@ fn extension(node: &Node, lines: &Lines) -> Result<Extension, UrdfError> {
     Ok(Extension {
         period_s,
         root_rotation: root.map(|root| quaternion(&root, "rotation")).transpose()?,
-        waves: elements("motor").map(|motor| wave(&motor, lines)).collect::<Result<_, _>>()?,
+        motors: elements("motor").map(|it| motor(&it, lines)).collect::<Result<_, _>>()?,
         poses: elements("pose").map(|pose| exact_pose(&pose)).collect::<Result<_, _>>()?,
     })
 }
 
-fn wave(node: &Node, lines: &Lines) -> Result<Wave, UrdfError> {
+fn motor(node: &Node, lines: &Lines) -> Result<MotorElement, UrdfError> {
     let number = |name| numbers(node, name, None).map(|[number]| number);
     let waveform = attribute(node, "waveform")?.parse();
-    Ok(Wave {
-        joint: attribute(node, "joint")?.to_owned(),
-        line: lines.begun_at(node),
+    let joint = attribute(node, "joint")?.to_owned();
+    let wave = Wave {
         waveform: waveform.map_err(|_| wrong(node, "waveform", "sine, pulse or ramp"))?,
         amplitude_rad_s: number("amplitude")?,
         phase_start_rad: number("phase-start")?,
         phase_step_rad: number("phase-step")?,
-    })
+    };
+    Ok(MotorElement { joint, line: lines.begun_at(node), wave })
 }
 
 fn exact_pose(node: &Node) -> Result<ExactPose, UrdfError> {

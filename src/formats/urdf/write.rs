@@ -3,7 +3,7 @@
 use super::super::rotation::roll_pitch_yaw_rad;
 use super::super::xml::{Escaped, Pose, Quaternion, Triple};
 use super::EXTENSION;
-use crate::creature::{Controller, Joint, JointKind, Link, Morphology, Motor, Shape};
+use crate::creature::{Controller, Joint, JointKind, Link, Morphology, Shape, Wave};
 use nalgebra::{Isometry3, Matrix3, Translation3};
 use std::fmt::{self, Display, Formatter};
 use std::io::{self, Write};
@@ -24,8 +24,7 @@ pub fn write(
         write_link(index, link, &frame_from_link(morphology, index), &mut output)?;
         if let Some(joint) = &link.joint {
             let origin = frame_from_link(morphology, joint.parent) * joint.parent_from_joint;
-            let motor = controller.motors[index].as_ref();
-            write_joint(index, joint, &origin, motor, &mut output)?;
+            write_joint(index, joint, &origin, controller, &mut output)?;
         }
     }
     write_extension(morphology, controller, &mut output)?;
@@ -40,9 +39,9 @@ fn write_extension(
 ) -> io::Result<()> {
     writeln!(output, r#"  <{EXTENSION} version="1" control-period="{}">"#, controller.period_s)?;
     writeln!(output, r#"    <root rotation="{}"/>"#, Quaternion(&morphology.root_rotation))?;
-    for (index, (link, motor)) in morphology.links.iter().zip(&controller.motors).enumerate() {
-        if let Some(motor) = motor {
-            write_motor(index, motor, output)?;
+    for (index, link) in morphology.links.iter().enumerate() {
+        if let Some(wave) = controller.wave(index) {
+            write_wave(index, wave, output)?;
         }
         if let Some(Joint { parent_from_joint, joint_from_link, .. }) = &link.joint {
             let (parent, link) = (Pose(parent_from_joint), Pose(joint_from_link));
@@ -55,8 +54,8 @@ fn write_extension(
     writeln!(output, "  </{EXTENSION}>")
 }
 
-fn write_motor(index: usize, motor: &Motor, output: &mut impl Write) -> io::Result<()> {
-    let Motor { waveform, amplitude_rad_s, phase_start_rad, phase_step_rad, .. } = motor;
+fn write_wave(index: usize, wave: &Wave, output: &mut impl Write) -> io::Result<()> {
+    let Wave { waveform, amplitude_rad_s, phase_start_rad, phase_step_rad } = wave;
     writeln!(
         output,
         r#"    <motor joint="joint_{index}" waveform="{waveform}" amplitude="{amplitude_rad_s}" phase-start="{phase_start_rad}" phase-step="{phase_step_rad}"/>"#
@@ -105,7 +104,7 @@ fn write_joint(
     index: usize,
     joint: &Joint,
     origin: &Isometry3<f64>,
-    motor: Option<&Motor>,
+    controller: &Controller,
     output: &mut impl Write,
 ) -> io::Result<()> {
     let (parent, origin) = (joint.parent, Origin(origin));
@@ -121,8 +120,8 @@ fn write_joint(
     <child link="link_{index}"/>"#
     )?;
     if let JointKind::Revolute(axis) = joint.kind {
-        let effort = motor.map_or(0.0, |motor| motor.torque_nm_max);
-        let velocity = motor.map_or(0.0, |motor| motor.amplitude_rad_s);
+        let effort = controller.motors[index].map_or(0.0, |motor| motor.torque_nm_max);
+        let velocity = controller.wave(index).map_or(0.0, |wave| wave.amplitude_rad_s);
         writeln!(output, r#"    <axis xyz="{}"/>"#, Triple(&axis))?;
         writeln!(output, r#"    <limit effort="{effort}" velocity="{velocity}"/>"#)?;
     }

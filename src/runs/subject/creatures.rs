@@ -115,7 +115,7 @@ impl<E: Encoding> Subject for Locomotion<E> {
 mod tests {
     use super::*;
     use crate::creature::encodings::ExpressionError;
-    use crate::creature::{Brain, Controller, Link, Morphology, Shape};
+    use crate::creature::{Controller, Link, Morphology, Shape};
     use crate::evolution::Gene;
     use crate::rng::Stream;
     use bytemuck::{Pod, Zeroable};
@@ -179,7 +179,7 @@ mod tests {
             let root_rotation = UnitQuaternion::identity();
             Ok(Creature {
                 morphology: Morphology { links: vec![link], root_rotation },
-                controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
+                controller: Controller::of_waves(0.1, [None]),
             })
         }
 

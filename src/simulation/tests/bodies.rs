@@ -1,8 +1,6 @@
 //! Bodies that no genome makes, put together by hand.
 
-use crate::creature::{
-    Brain, Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
-};
+use crate::creature::{Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -29,7 +27,7 @@ impl Body {
                 links: vec![cuboid(half_extents_m, mass_kg, None)],
                 root_rotation: UnitQuaternion::identity(),
             },
-            controller: Controller { period_s: 0.1, motors: vec![None], brain: Brain::Waves },
+            controller: Controller::of_waves(0.1, [None]),
         })
     }
 
@@ -41,13 +39,7 @@ impl Body {
             joint_from_link: Translation3::from(hinge.centre_m).into(),
             kind: JointKind::Revolute(hinge.axis),
         };
-        let motor = Motor {
-            waveform: Waveform::Pulse,
-            amplitude_rad_s: 0.0,
-            phase_start_rad: 0.0,
-            phase_step_rad: 0.0,
-            torque_nm_max: hinge.torque_nm_max,
-        };
+        let motor = Motor { torque_nm_max: hinge.torque_nm_max };
         self.0.morphology.links.push(cuboid(half_extents_m, mass_kg, Some(joint)));
         self.0.controller.motors.push(Some(motor));
         self

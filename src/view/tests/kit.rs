@@ -2,7 +2,7 @@
 
 use crate::archipelago::Report;
 use crate::creature::{
-    Brain, Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Wave, Waveform,
 };
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Spread, Statistics};
@@ -53,20 +53,17 @@ pub fn body(shapes: &[Shape]) -> (Morphology, Controller) {
         inertia: None,
         joint: (index > 0).then(|| joint.clone()),
     };
-    let motor = Motor {
+    let wave = Wave {
         waveform: Waveform::Pulse,
         amplitude_rad_s: 1.0,
         phase_start_rad: 0.0,
         phase_step_rad: TAU / 20.0,
-        torque_nm_max: 1.0,
     };
+    let motor = Motor { torque_nm_max: 1.0 };
     let links: Vec<Link> = shapes.iter().enumerate().map(link).collect();
-    let motors = links.iter().map(|link| link.joint.as_ref().map(|_| motor)).collect();
-    let root_rotation = UnitQuaternion::identity();
-    (
-        Morphology { links, root_rotation },
-        Controller { period_s: 0.05, motors, brain: Brain::Waves },
-    )
+    let driven = links.iter().map(|link| link.joint.as_ref().map(|_| (motor, wave)));
+    let controller = Controller::of_waves(0.05, driven);
+    (Morphology { links, root_rotation: UnitQuaternion::identity() }, controller)
 }
 
 pub fn report(island: u32, generation: u32) -> Report {

@@ -15,7 +15,7 @@
 //! | paddle_walker | 0.381 | 0.116 | 0.05–0.60 | stick and slip: the two differ by a factor of three |
 
 use islands::creature::{
-    Brain, Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Waveform,
+    Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Wave, Waveform,
 };
 use islands::simulation::{self, Engine, Ground, Guards, Medium, Perturbation, Start, Trial};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -73,14 +73,15 @@ impl Part {
         }
     }
 
-    fn motor(&self) -> Option<Motor> {
-        (self.parent >= 0 && self.jtype == "revolute").then_some(Motor {
+    fn driven(&self) -> Option<(Motor, Wave)> {
+        let wave = Wave {
             waveform: self.wave,
             amplitude_rad_s: 1.0,
             phase_start_rad: 0.0,
             phase_step_rad: self.freq,
-            torque_nm_max: 5.0,
-        })
+        };
+        let is_driven = self.parent >= 0 && self.jtype == "revolute";
+        is_driven.then_some((Motor { torque_nm_max: 5.0 }, wave))
     }
 }
 
@@ -91,11 +92,7 @@ impl Body {
                 links: self.links.iter().map(Part::link).collect(),
                 root_rotation: UnitQuaternion::identity(),
             },
-            controller: Controller {
-                period_s: 0.1,
-                motors: self.links.iter().map(Part::motor).collect(),
-                brain: Brain::Waves,
-            },
+            controller: Controller::of_waves(0.1, self.links.iter().map(Part::driven)),
         }
     }
 
