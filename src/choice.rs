@@ -1,32 +1,55 @@
 //! Settings that are one of a few: read by the names that they are shown by.
+//!
+//! `strum` derives the names and the list of an enum's variants, so that none can be forgotten; [`one_of`] reads them.
+//! Where variants hold a number, its `EnumCount` has the compiler count the list of the usual ones.
 
 use std::fmt::Display;
+use strum::VariantArray;
+
+/// All variants of an enum that has `N`.
+pub const fn all<T: VariantArray + Copy, const N: usize>() -> [T; N] {
+    match T::VARIANTS.split_first_chunk() {
+        Some((all, [])) => *all,
+        _ => panic!("N is how many variants there are"),
+    }
+}
 
 /// The one of `all` that is shown as `text`; `kind` says what is chosen.
 ///
 /// # Errors
 /// If none is: a sentence that names them all.
 pub fn named<T: Copy + Display>(kind: &str, all: &[T], text: &str) -> Result<T, String> {
-    all.iter().copied().find(|choice| choice.to_string() == text).ok_or_else(|| {
-        let known: Vec<String> = all.iter().map(T::to_string).collect();
-        format!("unknown {kind} “{text}”: choose one of {}", known.join(", "))
-    })
+    let is_it = |choice: &T| choice.to_string() == text;
+    all.iter().copied().find(is_it).ok_or_else(|| unknown(kind, all, text))
+}
+
+fn unknown<T: Display>(kind: &str, all: &[T], text: &str) -> String {
+    let known: Vec<String> = all.iter().map(T::to_string).collect();
+    format!("unknown {kind} “{text}”: choose one of {}", known.join(", "))
 }
 
 /// A setting of the form `name` or `name:number`.
 #[derive(Debug, Clone, Copy)]
 pub struct Scheme<'a> {
-    text: &'a str,
-    /// What stands before the colon, or all.
-    pub name: &'a str,
+    name: &'a str,
     number: Option<&'a str>,
 }
 
 impl<'a> Scheme<'a> {
-    /// Takes a text apart.
-    pub fn of(text: &'a str) -> Self {
+    /// Takes a text apart, and finds the one that its name chooses; `usual` has one of every kind, with its usual number.
+    ///
+    /// # Errors
+    /// If there is none: a sentence that names them all.
+    pub fn of<T: Copy + Display>(
+        kind: &str,
+        usual: &[T],
+        text: &'a str,
+    ) -> Result<(T, Self), String> {
         let (name, number) = text.split_once(':').map_or((text, None), |(s, n)| (s, Some(n)));
-        Self { text, name, number }
+        let is_it = |choice: &T| choice.to_string().split(':').next() == Some(name);
+        let chosen = usual.iter().copied().find(is_it);
+        let chosen = chosen.ok_or_else(|| unknown(kind, usual, text))?;
+        Ok((chosen, Self { name, number }))
     }
 
     /// What a scheme without a number is.
@@ -63,12 +86,28 @@ impl<'a> Scheme<'a> {
             Some(_) => Err(format!("{} takes a whole number from {least} to {most}", self.name)),
         }
     }
-
-    /// The sentence for a name that is not known.
-    pub fn unknown(self, kind: &str, choices: &str) -> String {
-        format!("unknown {kind} “{}”: choose {choices}", self.text)
-    }
 }
+
+/// Gives an enum that derives `strum::Display` and `strum::VariantArray` the list of its variants, and reads them by
+/// their names.
+macro_rules! one_of {
+    ($kind:literal, $of:ident) => {
+        impl $of {
+            /// Every one, in order.
+            pub const ALL: [Self; <Self as strum::VariantArray>::VARIANTS.len()] =
+                crate::choice::all();
+        }
+
+        impl std::str::FromStr for $of {
+            type Err = String;
+
+            fn from_str(text: &str) -> Result<Self, String> {
+                crate::choice::named($kind, &Self::ALL, text)
+            }
+        }
+    };
+}
+pub(crate) use one_of;
 
 /// Makes types that are shown and read as text be stored as this text, too.
 macro_rules! as_text {

@@ -7,7 +7,10 @@ use serde::{Deserialize, Serialize};
 
 /// What searches. All of them count evaluations alike, but have not quite as many in a generation: they are compared
 /// at an equal number of evaluations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Algorithm {
     /// The genetic algorithm on islands.
@@ -25,15 +28,6 @@ pub enum Algorithm {
 }
 
 impl Algorithm {
-    /// Every algorithm.
-    pub const ALL: [Algorithm; 5] = [
-        Algorithm::Ga,
-        Algorithm::Random,
-        Algorithm::HillClimb,
-        Algorithm::CmaEs,
-        Algorithm::Panmictic,
-    ];
-
     /// Whether it is a genetic algorithm: with survival and exchange.
     pub fn is_genetic(self) -> bool {
         matches!(self, Algorithm::Ga | Algorithm::Panmictic)
@@ -78,22 +72,4 @@ impl Algorithm {
     }
 }
 
-impl std::fmt::Display for Algorithm {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Algorithm::Ga => "ga",
-            Algorithm::Random => "random",
-            Algorithm::HillClimb => "hill-climb",
-            Algorithm::CmaEs => "cma-es",
-            Algorithm::Panmictic => "panmictic",
-        })
-    }
-}
-
-impl std::str::FromStr for Algorithm {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("algorithm", &Algorithm::ALL, text)
-    }
-}
+choice::one_of!("algorithm", Algorithm);

@@ -7,11 +7,23 @@ use rand::RngExt;
 use rand::seq::index;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
-use std::fmt;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// Who is sent. No individual is twice in an outbox.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Emigrants {
     /// The best.
@@ -20,6 +32,7 @@ pub enum Emigrants {
     /// Anybody, all with the same chance.
     Random,
     /// The best of `size` drawn from those who do not travel yet, one tournament after another.
+    #[strum(to_string = "tournament:{size}")]
     Tournament {
         /// Contestants, from 1 to [`SIZE_MAX`].
         size: u32,
@@ -28,9 +41,12 @@ pub enum Emigrants {
 
 /// The largest tournament.
 pub const SIZE_MAX: u32 = 1000;
-const SIZE_USUAL: u32 = 3;
 
 impl Emigrants {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Emigrants; Emigrants::COUNT] =
+        [Emigrants::Best, Emigrants::Random, Emigrants::Tournament { size: 3 }];
+
     /// Chooses `count` individuals out of a `ranking`, or all if there are fewer; the best come first. `draw` gives a
     /// stream of random numbers for each of them.
     pub fn choose(
@@ -61,7 +77,19 @@ impl Emigrants {
 }
 
 /// Whom an immigrant replaces.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Replacement {
     /// The worst resident, if the immigrant is better.
@@ -75,10 +103,6 @@ pub enum Replacement {
 }
 
 impl Replacement {
-    /// Every one.
-    pub const ALL: [Replacement; 3] =
-        [Replacement::Worst, Replacement::Random, Replacement::Similar];
-
     /// The index of the resident that `migrant` replaces, if any.
     pub fn whom<P: Problem>(
         self,
@@ -110,7 +134,19 @@ impl Replacement {
 }
 
 /// Whether islands wait for each other.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    Default,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum ExchangeMode {
     /// They do, so that the seed fixes the result.
@@ -120,74 +156,25 @@ pub enum ExchangeMode {
     Async,
 }
 
-impl ExchangeMode {
-    /// Both.
-    pub const ALL: [ExchangeMode; 2] = [ExchangeMode::Sync, ExchangeMode::Async];
-}
-
-impl fmt::Display for Emigrants {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Emigrants::Best => write!(f, "best"),
-            Emigrants::Random => write!(f, "random"),
-            Emigrants::Tournament { size } => write!(f, "tournament:{size}"),
-        }
-    }
-}
-
 impl FromStr for Emigrants {
     type Err = String;
 
     /// Reads what `Display` writes; a tournament without its number is one of three.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "best" => scheme.plain(Emigrants::Best),
-            "random" => scheme.plain(Emigrants::Random),
-            "tournament" => {
-                Ok(Emigrants::Tournament { size: scheme.whole(SIZE_USUAL, 1, SIZE_MAX)? })
+        let (usual, scheme) = choice::Scheme::of("emigrants", &Self::USUAL, text)?;
+        match usual {
+            Emigrants::Tournament { size } => {
+                Ok(Emigrants::Tournament { size: scheme.whole(size, 1, SIZE_MAX)? })
             }
-            _ => Err(scheme.unknown("emigrants", "best, random or tournament:3")),
+            plain => scheme.plain(plain),
         }
     }
 }
 
 choice::as_text!(Emigrants);
 
-impl fmt::Display for Replacement {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Replacement::Worst => "worst",
-            Replacement::Random => "random",
-            Replacement::Similar => "similar",
-        })
-    }
-}
-
-impl FromStr for Replacement {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("replacement", &Replacement::ALL, text)
-    }
-}
-
-impl fmt::Display for ExchangeMode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            ExchangeMode::Sync => "sync",
-            ExchangeMode::Async => "async",
-        })
-    }
-}
-
-impl FromStr for ExchangeMode {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("exchange", &ExchangeMode::ALL, text)
-    }
-}
+choice::one_of!("replacement", Replacement);
+choice::one_of!("exchange", ExchangeMode);
 
 #[cfg(test)]
 mod tests {
@@ -195,9 +182,6 @@ mod tests {
     use super::*;
     use crate::evolution::{Fitness, Id};
     use crate::rng::{Purpose, Source};
-
-    const EMIGRANTS: [Emigrants; 3] =
-        [Emigrants::Best, Emigrants::Random, Emigrants::Tournament { size: 3 }];
 
     fn stream(index: u32) -> Stream {
         Source { seed: 1, island: 0 }.stream(0, index, Purpose::Emigration)
@@ -226,7 +210,9 @@ mod tests {
     #[test]
     fn nobody_is_sent_twice_and_the_best_come_first() {
         let ranking = [4, 2, 0, 1, 3];
-        for (policy, count) in EMIGRANTS.into_iter().flat_map(|p| (0..8).map(move |n| (p, n))) {
+        for (policy, count) in
+            Emigrants::USUAL.into_iter().flat_map(|p| (0..8).map(move |n| (p, n)))
+        {
             let draw = |slot| stream(100 * count as u32 + slot);
             let chosen = policy.choose(&ranking, count, draw);
             let ranks: Vec<usize> =
@@ -282,7 +268,7 @@ mod tests {
 
     #[test]
     fn a_policy_is_read_as_it_is_written() {
-        for policy in EMIGRANTS {
+        for policy in Emigrants::USUAL {
             assert_eq!(policy.to_string().parse(), Ok(policy));
         }
         for policy in Replacement::ALL {

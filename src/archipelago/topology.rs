@@ -6,11 +6,14 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
-use std::fmt;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// The directed graph of migration. Every way goes both ways but in a ring and in a random graph.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Topology {
     /// Island i sends to island i + 1, the last one to the first.
@@ -29,6 +32,7 @@ pub enum Topology {
     Hypercube,
     /// Every island sends to `degree` others and receives from as many, drawn from the run's seed: a ring through
     /// all of them in random order, so that it is connected, and the other edges at random.
+    #[strum(to_string = "random-regular:{degree}")]
     RandomRegular {
         /// From 1; where there are fewer others, all of them.
         degree: u32,
@@ -47,7 +51,7 @@ const DEGREE_MAX: u32 = 255;
 
 impl Topology {
     /// One of every kind.
-    pub const ALL: [Topology; 8] = [
+    pub const ALL: [Topology; Topology::COUNT] = [
         Topology::Ring,
         Topology::BidirectionalRing,
         Topology::Full,
@@ -199,33 +203,17 @@ impl Graph {
     }
 }
 
-impl fmt::Display for Topology {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Topology::Ring => "ring",
-            Topology::BidirectionalRing => "bidirectional-ring",
-            Topology::Full => "full",
-            Topology::Torus => "torus",
-            Topology::Star => "star",
-            Topology::Hypercube => "hypercube",
-            Topology::RandomRegular { degree } => return write!(f, "random-regular:{degree}"),
-            Topology::None => "none",
-        })
-    }
-}
-
 impl FromStr for Topology {
     type Err = String;
 
     /// Reads what `Display` writes; a random graph without a degree has the usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "random-regular" => {
-                let degree = scheme.whole(USUAL_DEGREE, 1, DEGREE_MAX)?;
-                Ok(Topology::RandomRegular { degree })
+        let (usual, scheme) = choice::Scheme::of("topology", &Self::ALL, text)?;
+        match usual {
+            Topology::RandomRegular { degree } => {
+                Ok(Topology::RandomRegular { degree: scheme.whole(degree, 1, DEGREE_MAX)? })
             }
-            _ => choice::named("topology", &Topology::ALL, text),
+            plain => scheme.plain(plain),
         }
     }
 }

@@ -7,12 +7,15 @@ use rand::RngExt;
 use rand::seq::SliceRandom;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
-use std::fmt;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// How parents are picked from a population. An individual that could not be scored is only ever picked
 /// where nothing better is to be had.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Serialize, Deserialize, strum::Display, strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Selection {
     /// Fitness-proportionate (Holland 1975), shifted so that the smallest score of the population has
@@ -22,32 +25,23 @@ pub enum Selection {
     /// gets more than one offspring more or less than expected.
     Sus,
     /// The best of `size` drawn with replacement (Brindle 1981).
+    #[strum(to_string = "tournament:{size}")]
     Tournament {
         /// How many compete, at least 1.
         size: u32,
     },
     /// Linear ranking (Baker 1985): the best gets `pressure` expected offspring, the worst 2 - `pressure`.
+    #[strum(to_string = "rank:{pressure}")]
     Rank {
         /// From 1 (no pressure) to 2.
         pressure: f64,
     },
     /// Uniformly among the best `fraction` (Mühlenbein & Schlierkamp-Voosen 1993).
+    #[strum(to_string = "truncation:{fraction}")]
     Truncation {
         /// Above 0, at most 1; at least one individual is kept.
         fraction: f64,
     },
-}
-
-impl fmt::Display for Selection {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Selection::Roulette => write!(f, "roulette"),
-            Selection::Sus => write!(f, "sus"),
-            Selection::Tournament { size } => write!(f, "tournament:{size}"),
-            Selection::Rank { pressure } => write!(f, "rank:{pressure}"),
-            Selection::Truncation { fraction } => write!(f, "truncation:{fraction}"),
-        }
-    }
 }
 
 impl FromStr for Selection {
@@ -55,15 +49,18 @@ impl FromStr for Selection {
 
     /// Reads what `Display` writes; without its number a scheme takes its usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "roulette" => scheme.plain(Selection::Roulette),
-            "sus" => scheme.plain(Selection::Sus),
-            "tournament" => Ok(Selection::Tournament { size: scheme.whole(3, 1, 1000)? }),
-            "rank" => Ok(Selection::Rank { pressure: scheme.number(1.8, 1.0, 2.0)? }),
-            "truncation" => Ok(Selection::Truncation { fraction: scheme.number(0.3, 0.001, 1.0)? }),
-            _ => Err(scheme
-                .unknown("selection", "roulette, sus, tournament:3, rank:1.8 or truncation:0.3")),
+        let (usual, scheme) = choice::Scheme::of("selection", &Self::USUAL, text)?;
+        match usual {
+            Selection::Tournament { size } => {
+                Ok(Selection::Tournament { size: scheme.whole(size, 1, 1000)? })
+            }
+            Selection::Rank { pressure } => {
+                Ok(Selection::Rank { pressure: scheme.number(pressure, 1.0, 2.0)? })
+            }
+            Selection::Truncation { fraction } => {
+                Ok(Selection::Truncation { fraction: scheme.number(fraction, 0.001, 1.0)? })
+            }
+            plain => scheme.plain(plain),
         }
     }
 }
@@ -89,6 +86,15 @@ pub enum Selector {
 }
 
 impl Selection {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Selection; Selection::COUNT] = [
+        Selection::Roulette,
+        Selection::Sus,
+        Selection::Tournament { size: 3 },
+        Selection::Rank { pressure: 1.8 },
+        Selection::Truncation { fraction: 0.3 },
+    ];
+
     /// Makes the scheme ready for a population with these scores.
     ///
     /// # Panics
@@ -337,7 +343,9 @@ mod tests {
 
     #[test]
     fn a_scheme_is_read_as_it_is_written() {
-        for scheme in SCHEMES {
+        let names = ["roulette", "sus", "tournament:3", "rank:1.8", "truncation:0.3"];
+        assert_eq!(Selection::USUAL.map(|scheme| scheme.to_string()), names);
+        for scheme in Selection::USUAL.into_iter().chain(SCHEMES) {
             assert_eq!(scheme.to_string().parse(), Ok(scheme));
         }
         assert_eq!("tournament".parse(), Ok(Selection::Tournament { size: 3 }));

@@ -56,7 +56,10 @@ pub enum Reproduction {
 }
 
 /// What changes the variation from one generation to the next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Adaptation {
     /// Nothing.
@@ -66,27 +69,7 @@ pub enum Adaptation {
     OneFifth,
 }
 
-impl Adaptation {
-    /// Every kind.
-    pub const ALL: [Adaptation; 2] = [Adaptation::None, Adaptation::OneFifth];
-}
-
-impl std::fmt::Display for Adaptation {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Adaptation::None => "none",
-            Adaptation::OneFifth => "one-fifth",
-        })
-    }
-}
-
-impl std::str::FromStr for Adaptation {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("adaptation", &Adaptation::ALL, text)
-    }
-}
+choice::one_of!("adaptation", Adaptation);
 
 /// The crossover rates of heterogeneous islands, and the factors of their point rate.
 const RATES: ([f64; 3], [f64; 3]) = ([0.3, 0.6, 1.0], [1.0, 0.1, 10.0]);

@@ -4,7 +4,19 @@ use crate::choice;
 use serde::{Deserialize, Serialize};
 
 /// A function of a neuron. The discriminants are part of every genome: never reorder.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::FromRepr,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 #[repr(u32)]
 pub enum Function {
@@ -32,18 +44,6 @@ const SLOPE: f64 = 4.9;
 const VALUE_MAX: f64 = 1e6;
 
 impl Function {
-    /// Every function.
-    pub const ALL: [Function; 8] = [
-        Function::Sigmoid,
-        Function::SignedSigmoid,
-        Function::Sine,
-        Function::Cosine,
-        Function::Gaussian,
-        Function::Square,
-        Function::SignedRoot,
-        Function::Clamped,
-    ];
-
     /// What hidden neurons of a CPPN may do (Cheney et al. 2013, in their release).
     pub const CPPN: [Function; 7] = [
         Function::Sigmoid,
@@ -57,7 +57,7 @@ impl Function {
 
     /// The function with this discriminant.
     pub fn of_code(code: u32) -> Option<Self> {
-        Self::ALL.get(code as usize).copied()
+        Self::from_repr(code)
     }
 
     /// Its value at `x`, finite for every finite `x`.
@@ -75,27 +75,5 @@ impl Function {
     }
 }
 
-impl std::fmt::Display for Function {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Function::Sigmoid => "sigmoid",
-            Function::SignedSigmoid => "signed-sigmoid",
-            Function::Sine => "sine",
-            Function::Cosine => "cosine",
-            Function::Gaussian => "gaussian",
-            Function::Square => "square",
-            Function::SignedRoot => "signed-root",
-            Function::Clamped => "clamped",
-        })
-    }
-}
-
-impl std::str::FromStr for Function {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("function", &Function::ALL, text)
-    }
-}
-
+choice::one_of!("function", Function);
 choice::as_text!(Function);

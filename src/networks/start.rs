@@ -8,27 +8,43 @@ use crate::choice;
 use crate::rng::Stream;
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// Weights of first genomes are uniform from minus this to this.
 const WEIGHT: f64 = 1.0;
 /// The most hidden neurons of a first genome.
 const HIDDEN_MAX: u32 = 64;
+/// Hidden neurons of a first genome if nothing is said, as in the paper's ablations.
+const NEURONS_USUAL: u32 = 10;
 
 /// What first genomes look like.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Start {
     /// Every input and the bias are linked to every output, and nothing is hidden: NEAT's.
     #[default]
     Minimal,
     /// A layer of so many hidden neurons, linked from every input and the bias, and to every output.
+    #[strum(to_string = "layer:{neurons}")]
     Layer {
         /// Hidden neurons, at least 1.
         neurons: u32,
     },
     /// One to so many hidden neurons, and each forward link with a probability of one half.
+    #[strum(to_string = "random:{neurons}")]
     Random {
         /// Hidden neurons at most, at least 1.
         neurons: u32,
@@ -36,6 +52,13 @@ pub enum Start {
 }
 
 impl Start {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Start; Start::COUNT] = [
+        Start::Minimal,
+        Start::Layer { neurons: NEURONS_USUAL },
+        Start::Random { neurons: NEURONS_USUAL },
+    ];
+
     /// The most genes that a first genome has.
     pub fn genes_max(self, sockets: Sockets) -> usize {
         let (sources, outputs) = (sockets.sources().count(), sockets.outputs().count());
@@ -83,27 +106,20 @@ impl Start {
     }
 }
 
-impl fmt::Display for Start {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Start::Minimal => write!(f, "minimal"),
-            Start::Layer { neurons } => write!(f, "layer:{neurons}"),
-            Start::Random { neurons } => write!(f, "random:{neurons}"),
-        }
-    }
-}
-
 impl FromStr for Start {
     type Err = String;
 
-    /// Reads what `Display` writes; without its number a start has 10 neurons, as in the paper's ablations.
+    /// Reads what `Display` writes; without its number a start has the usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "minimal" => scheme.plain(Start::Minimal),
-            "layer" => Ok(Start::Layer { neurons: scheme.whole(10, 1, HIDDEN_MAX)? }),
-            "random" => Ok(Start::Random { neurons: scheme.whole(10, 1, HIDDEN_MAX)? }),
-            _ => Err(scheme.unknown("start", "minimal, layer:10 or random:10")),
+        let (usual, scheme) = choice::Scheme::of("start", &Self::USUAL, text)?;
+        match usual {
+            Start::Layer { neurons } => {
+                Ok(Start::Layer { neurons: scheme.whole(neurons, 1, HIDDEN_MAX)? })
+            }
+            Start::Random { neurons } => {
+                Ok(Start::Random { neurons: scheme.whole(neurons, 1, HIDDEN_MAX)? })
+            }
+            plain => scheme.plain(plain),
         }
     }
 }

@@ -44,9 +44,10 @@ fn a_minimal_genome_links_inputs_and_bias_to_the_output_and_nothing_else() {
 
 #[test]
 fn every_start_is_sound_and_read_as_it_is_written() {
-    for text in ["minimal", "layer:10", "random:10"] {
-        let start: Start = text.parse().unwrap();
-        assert_eq!(start.to_string(), text);
+    let names = ["minimal", "layer:10", "random:10"];
+    assert_eq!(Start::USUAL.map(|start| start.to_string()), names);
+    for start in Start::USUAL {
+        assert_eq!(start.to_string().parse(), Ok(start));
         for index in 0..50 {
             let genome = start.genome(SOCKETS, &Function::CPPN, &mut stream(index));
             assert_eq!(Genome::of_genes(&genome.genes(), SOCKETS), Ok(genome.clone()));

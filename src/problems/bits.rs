@@ -23,11 +23,15 @@ impl Gene for Bit {
 }
 
 /// What bits are worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Pattern {
     /// The number of ones: every schema leads to the optimum.
     #[serde(rename = "onemax")]
+    #[strum(serialize = "onemax")]
     OneMax,
     /// Blocks in a row, each a fully deceptive trap of k bits (Deb & Goldberg 1993): k if all are ones, else k − 1
     /// less the number of ones, so that every schema of less than a block leads away from the optimum.
@@ -38,9 +42,6 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Every pattern.
-    pub const ALL: [Pattern; 3] = [Pattern::OneMax, Pattern::Trap, Pattern::RoyalRoad];
-
     /// The bits of a genome, as its source has them where it says.
     pub fn usual_bits(self) -> usize {
         match self {
@@ -69,23 +70,7 @@ impl Pattern {
     }
 }
 
-impl std::fmt::Display for Pattern {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Pattern::OneMax => "onemax",
-            Pattern::Trap => "trap",
-            Pattern::RoyalRoad => "royal-road",
-        })
-    }
-}
-
-impl std::str::FromStr for Pattern {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("pattern", &Pattern::ALL, text)
-    }
-}
+choice::one_of!("pattern", Pattern);
 
 /// A problem over bits: the optimum is a genome of ones, and worth as many as there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
 /// A function of any number of variables whose least value is zero, at one known place.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Function {
     /// One bowl.
@@ -48,7 +51,7 @@ const SCHWEFEL_EDGE: f64 = 500.0;
 ///
 /// As in the CEC suites z = M · scale · (x − o) + optimum, where x is a point of the domain, o the shifted optimum
 /// and M a rotation, or the identity. The error is the function's value, and zero at x = o alone.
-pub const FUNCTIONS: [Facts; 6] = [
+pub const FUNCTIONS: [Facts; Function::ALL.len()] = [
     Facts {
         formula: "Σ zᵢ²",
         low: -100.0,
@@ -100,16 +103,6 @@ pub const FUNCTIONS: [Facts; 6] = [
 ];
 
 impl Function {
-    /// Every function.
-    pub const ALL: [Function; 6] = [
-        Function::Sphere,
-        Function::Rastrigin,
-        Function::Rosenbrock,
-        Function::Ackley,
-        Function::Schwefel,
-        Function::Griewank,
-    ];
-
     /// Its row of the table.
     pub fn facts(self) -> Facts {
         FUNCTIONS[self as usize]
@@ -170,26 +163,7 @@ fn pit(z: f64, n: f64) -> f64 {
     inside(if z > 0.0 { mirrored } else { -mirrored }) - beyond * beyond / (10_000.0 * n)
 }
 
-impl std::fmt::Display for Function {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Function::Sphere => "sphere",
-            Function::Rastrigin => "rastrigin",
-            Function::Rosenbrock => "rosenbrock",
-            Function::Ackley => "ackley",
-            Function::Schwefel => "schwefel",
-            Function::Griewank => "griewank",
-        })
-    }
-}
-
-impl std::str::FromStr for Function {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("function", &Function::ALL, text)
-    }
-}
+choice::one_of!("function", Function);
 
 #[cfg(test)]
 mod tests {

@@ -21,7 +21,19 @@ pub struct Robustness {
 }
 
 /// What the scores of several trials come to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum RobustBy {
     /// The worst of them.
@@ -36,10 +48,6 @@ pub enum RobustBy {
 }
 
 impl RobustBy {
-    /// Every way.
-    pub const ALL: [RobustBy; 4] =
-        [RobustBy::Worst, RobustBy::Quartile, RobustBy::Median, RobustBy::Mean];
-
     /// What some scores come to, which must be numbers; nothing without any.
     pub fn of(self, scores: &[f64]) -> f64 {
         if scores.is_empty() {
@@ -62,24 +70,7 @@ impl RobustBy {
     }
 }
 
-impl std::fmt::Display for RobustBy {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            RobustBy::Worst => "worst",
-            RobustBy::Quartile => "quartile",
-            RobustBy::Median => "median",
-            RobustBy::Mean => "mean",
-        })
-    }
-}
-
-impl std::str::FromStr for RobustBy {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("robust-by", &RobustBy::ALL, text)
-    }
-}
+choice::one_of!("robust-by", RobustBy);
 
 impl Robustness {
     /// One trial, which is not perturbed.

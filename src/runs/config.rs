@@ -76,6 +76,30 @@ impl Config {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::archipelago::{ExchangeMode, Replacement};
+    use crate::creature::Profile;
+    use crate::evolution::Adaptation;
+    use crate::problems::{RobustBy, Task};
+    use crate::simulation::Engine;
+    use serde::Serialize;
+
+    fn is_written_as_shown<T: Serialize + ToString>(choices: &[T]) -> bool {
+        let is_same =
+            |choice: &T| serde_json::to_value(choice).expect("it is a word") == choice.to_string();
+        choices.iter().all(is_same)
+    }
+
+    #[test]
+    fn a_choice_is_called_the_same_in_a_file_and_on_the_command_line() {
+        assert!(is_written_as_shown(&Algorithm::ALL));
+        assert!(is_written_as_shown(&Task::ALL));
+        assert!(is_written_as_shown(&Profile::ALL));
+        assert!(is_written_as_shown(&Engine::ALL));
+        assert!(is_written_as_shown(&RobustBy::ALL));
+        assert!(is_written_as_shown(&Adaptation::ALL));
+        assert!(is_written_as_shown(&Replacement::ALL));
+        assert!(is_written_as_shown(&ExchangeMode::ALL));
+    }
 
     #[test]
     fn a_configuration_survives_its_file_and_a_file_need_not_say_everything() {

@@ -11,8 +11,9 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// A part of a configuration: a table of `run.toml` and a heading of `--help`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A part of a configuration, in the order of `run.toml`: a table there and a heading of `--help`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Section {
     /// What every run has; without a heading.
     Run,
@@ -29,16 +30,6 @@ pub enum Section {
 }
 
 impl Section {
-    /// Every section, in the order of `run.toml`.
-    pub const ALL: [Section; 6] = [
-        Section::Run,
-        Section::Vectors,
-        Section::Creatures,
-        Section::GeneticAlgorithm,
-        Section::Migration,
-        Section::Running,
-    ];
-
     /// The heading in `--help`.
     pub fn heading(self) -> Option<&'static str> {
         match self {
@@ -52,15 +43,8 @@ impl Section {
     }
 
     /// The table of `run.toml`; that of [`Section::Run`] are the lines above all tables.
-    pub fn table(self) -> Option<&'static str> {
-        match self {
-            Section::Run => None,
-            Section::Vectors => Some("vectors"),
-            Section::Creatures => Some("creatures"),
-            Section::GeneticAlgorithm => Some("genetic-algorithm"),
-            Section::Migration => Some("migration"),
-            Section::Running => Some("running"),
-        }
+    pub fn table(self) -> Option<String> {
+        (self != Section::Run).then(|| self.to_string())
     }
 }
 

@@ -4,7 +4,21 @@ use crate::choice;
 use serde::{Deserialize, Serialize};
 
 /// A physics engine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Default,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Engine {
     /// rapier's multibodies.
@@ -15,9 +29,6 @@ pub enum Engine {
 }
 
 impl Engine {
-    /// Every engine.
-    pub const ALL: [Engine; 2] = [Engine::Rapier, Engine::Featherstone];
-
     /// The one that shares no line of code with this one, and so none of its faults.
     pub fn other(self) -> Self {
         match self {
@@ -27,19 +38,4 @@ impl Engine {
     }
 }
 
-impl std::fmt::Display for Engine {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Engine::Rapier => "rapier",
-            Engine::Featherstone => "featherstone",
-        })
-    }
-}
-
-impl std::str::FromStr for Engine {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("engine", &Engine::ALL, text)
-    }
-}
+choice::one_of!("engine", Engine);

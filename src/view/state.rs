@@ -3,9 +3,10 @@
 use super::card::RunCard;
 use super::{ViewError, palette};
 use rerun::{RecordingStream, StateChange, StateConfiguration};
+use strum::VariantArray;
 
 /// How an island fares.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::VariantArray)]
 pub enum Mood {
     /// It bred a better champion.
     Improves,
@@ -16,8 +17,6 @@ pub enum Mood {
 }
 
 impl Mood {
-    const ALL: [Mood; 3] = [Mood::Improves, Mood::IsConquered, Mood::Stagnates];
-
     fn word(self) -> &'static str {
         match self {
             Mood::Improves => "improves",
@@ -39,8 +38,8 @@ impl Mood {
 /// Writes how moods look.
 pub(super) fn configure(rec: &RecordingStream, card: &RunCard) -> Result<(), ViewError> {
     let looks = StateConfiguration::new()
-        .with_values(Mood::ALL.map(Mood::word))
-        .with_colors(Mood::ALL.map(|mood| palette::opaque(mood.color())));
+        .with_values(Mood::VARIANTS.iter().map(|mood| mood.word()))
+        .with_colors(Mood::VARIANTS.iter().map(|mood| palette::opaque(mood.color())));
     card.lanes().try_for_each(|(lane, _)| Ok(rec.log_static(path(lane), &looks)?))
 }
 

@@ -75,7 +75,7 @@ fn an_unknown_name_is_refused_with_those_that_are_known() {
         expect![[r#"
             invalid value 'bullet' for '--engine <ENGINE>': unknown engine “bullet”: choose one of rapier, featherstone
             invalid value 'mine' for '--profile <PROFILE>': unknown profile “mine”: choose one of native, lecture, coursework
-            invalid value 'luck' for '--selection <SCHEME>': unknown selection “luck”: choose roulette, sus, tournament:3, rank:1.8 or truncation:0.3
+            invalid value 'luck' for '--selection <SCHEME>': unknown selection “luck”: choose one of roulette, sus, tournament:3, rank:1.8, truncation:0.3
             invalid value 'rank:3' for '--selection <SCHEME>': rank takes a number from 1 to 2"#]],
     );
 }

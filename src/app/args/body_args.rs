@@ -151,7 +151,8 @@ pub struct ExportArgs {
 }
 
 /// A format to write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Format {
     /// The genome, for the course's program.
     Csv,
@@ -165,27 +166,4 @@ pub enum Format {
     Motion,
 }
 
-impl Format {
-    /// Every format.
-    const ALL: [Format; 5] = [Format::Csv, Format::Urdf, Format::Mjcf, Format::Stl, Format::Motion];
-}
-
-impl std::fmt::Display for Format {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Format::Csv => "csv",
-            Format::Urdf => "urdf",
-            Format::Mjcf => "mjcf",
-            Format::Stl => "stl",
-            Format::Motion => "motion",
-        })
-    }
-}
-
-impl std::str::FromStr for Format {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("format", &Format::ALL, text)
-    }
-}
+choice::one_of!("format", Format);

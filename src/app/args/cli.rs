@@ -169,7 +169,8 @@ pub struct ViewArgs {
 }
 
 /// Who can watch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Watching {
     /// Whoever attaches a viewer.
     #[default]
@@ -180,23 +181,7 @@ pub enum Watching {
     Off,
 }
 
-impl std::fmt::Display for Watching {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Watching::Live => "live",
-            Watching::Spawn => "spawn",
-            Watching::Off => "off",
-        })
-    }
-}
-
-impl std::str::FromStr for Watching {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("view", &[Watching::Live, Watching::Spawn, Watching::Off], text)
-    }
-}
+choice::one_of!("view", Watching);
 
 /// Scoring.
 #[derive(Debug, Args)]

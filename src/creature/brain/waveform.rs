@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// The form of a wave over one cycle, from -1 to 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, strum::Display, strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Waveform {
     /// The sine of the phase.
@@ -17,9 +20,6 @@ pub enum Waveform {
 }
 
 impl Waveform {
-    /// Every waveform.
-    pub const ALL: [Waveform; 3] = [Waveform::Sine, Waveform::Pulse, Waveform::Ramp];
-
     /// The wave's value at a phase from 0 (included) to 2π (excluded).
     pub fn at(self, phase_rad: f64) -> f64 {
         match self {
@@ -31,23 +31,7 @@ impl Waveform {
     }
 }
 
-impl std::fmt::Display for Waveform {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Waveform::Sine => "sine",
-            Waveform::Pulse => "pulse",
-            Waveform::Ramp => "ramp",
-        })
-    }
-}
-
-impl std::str::FromStr for Waveform {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("waveform", &Waveform::ALL, text)
-    }
-}
+choice::one_of!("waveform", Waveform);
 
 #[cfg(test)]
 mod tests {

@@ -17,12 +17,15 @@ use crate::choice;
 use crate::rng::Stream;
 use scheme::Scheme;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// How the next population is made of the old one and its offspring.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Serialize, Deserialize, strum::Display, strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Survival {
     /// [`elitist::Generational`]: the offspring replace all but the elites.
@@ -31,11 +34,13 @@ pub enum Survival {
     /// drifts over what is flat (Kimura 1968; plateaus of a (1 + λ): Jansen & Wegener 2001).
     Drifting,
     /// As generational, but parents are picked by their [`sharing::shared`] fitness.
+    #[strum(to_string = "sharing:{radius}")]
     Sharing {
         /// The distance from which on two individuals share nothing, above 0, at most 1.
         radius: f64,
     },
     /// [`species::Species`]: who is alike shares its fitness, and the best of each large species lives on.
+    #[strum(to_string = "species:{radius}")]
     Species {
         /// The distance ([`Problem::compatibility`]) from which on two individuals are of different species, above 0.
         radius: f64,
@@ -45,24 +50,11 @@ pub enum Survival {
     /// [`afpo::pareto`]: age-fitness Pareto optimisation, with one random newcomer a generation.
     Afpo,
     /// [`map_elites::fill`]: the population is the best of each cell of a map of features.
+    #[strum(to_string = "map-elites:{bins}")]
     MapElites {
         /// Cells along each of the two features, 2 to [`map_elites::BINS_MAX`].
         bins: u32,
     },
-}
-
-impl fmt::Display for Survival {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Survival::Generational => write!(f, "generational"),
-            Survival::Drifting => write!(f, "drifting"),
-            Survival::Sharing { radius } => write!(f, "sharing:{radius}"),
-            Survival::Species { radius } => write!(f, "species:{radius}"),
-            Survival::Crowding => write!(f, "crowding"),
-            Survival::Afpo => write!(f, "afpo"),
-            Survival::MapElites { bins } => write!(f, "map-elites:{bins}"),
-        }
-    }
 }
 
 impl FromStr for Survival {
@@ -70,21 +62,18 @@ impl FromStr for Survival {
 
     /// Reads what `Display` writes; without its number a scheme takes its usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "generational" => scheme.plain(Survival::Generational),
-            "drifting" => scheme.plain(Survival::Drifting),
-            "sharing" => Ok(Survival::Sharing { radius: scheme.number(0.1, 1e-6, 1.0)? }),
-            "species" => Ok(Survival::Species { radius: scheme.number(3.0, 1e-6, 1e6)? }),
-            "crowding" => scheme.plain(Survival::Crowding),
-            "afpo" => scheme.plain(Survival::Afpo),
-            "map-elites" => {
-                Ok(Survival::MapElites { bins: scheme.whole(8, 2, map_elites::BINS_MAX)? })
+        let (usual, scheme) = choice::Scheme::of("survival", &Self::USUAL, text)?;
+        match usual {
+            Survival::Sharing { radius } => {
+                Ok(Survival::Sharing { radius: scheme.number(radius, 1e-6, 1.0)? })
             }
-            _ => Err(scheme.unknown(
-                "survival",
-                "generational, drifting, sharing:0.1, species:3, crowding, afpo or map-elites:8",
-            )),
+            Survival::Species { radius } => {
+                Ok(Survival::Species { radius: scheme.number(radius, 1e-6, 1e6)? })
+            }
+            Survival::MapElites { bins } => {
+                Ok(Survival::MapElites { bins: scheme.whole(bins, 2, map_elites::BINS_MAX)? })
+            }
+            plain => scheme.plain(plain),
         }
     }
 }
@@ -111,6 +100,17 @@ macro_rules! with {
 }
 
 impl Survival {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Survival; Survival::COUNT] = [
+        Survival::Generational,
+        Survival::Drifting,
+        Survival::Sharing { radius: 0.1 },
+        Survival::Species { radius: 3.0 },
+        Survival::Crowding,
+        Survival::Afpo,
+        Survival::MapElites { bins: 8 },
+    ];
+
     /// The next population: [`Scheme::survivors`].
     pub fn survivors<P: Problem>(
         self,

@@ -237,9 +237,17 @@ fn every_feature_has_a_cell() {
 
 #[test]
 fn a_scheme_is_read_as_it_is_written() {
-    for scheme in ["generational", "drifting", "sharing:0.1", "crowding", "afpo", "map-elites:8"] {
-        assert_eq!(scheme.parse::<Survival>().unwrap().to_string(), scheme);
-    }
+    let names = [
+        "generational",
+        "drifting",
+        "sharing:0.1",
+        "species:3",
+        "crowding",
+        "afpo",
+        "map-elites:8",
+    ];
+    assert_eq!(Survival::USUAL.map(|scheme| scheme.to_string()), names);
+    assert_eq!(names.map(str::parse), Survival::USUAL.map(Ok));
     for wrong in ["", "steady", "afpo:1", "sharing:0", "map-elites:1", "map-elites:2.5"] {
         assert!(wrong.parse::<Survival>().is_err(), "{wrong}");
     }

@@ -4,8 +4,8 @@ use crate::choice;
 use crate::rng::Stream;
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
-use std::fmt;
 use std::str::FromStr;
+use strum::EnumCount;
 
 /// How often and how much genomes are varied.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -48,7 +48,10 @@ impl Default for Variation {
 }
 
 /// How two parents are recombined. Where genes hold no numbers, the last two take each gene from either parent.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Serialize, Deserialize, strum::Display, strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Crossover {
     /// [`super::sequences::one_point_crossover`].
@@ -58,11 +61,13 @@ pub enum Crossover {
     /// Each gene is that of either parent (Syswerda 1989).
     Uniform,
     /// Each number lies between the parents' or beyond: BLX-alpha (Eshelman & Schaffer 1993).
+    #[strum(to_string = "blend:{alpha}")]
     Blend {
         /// How far beyond, as a share of their distance, 0 to 2.
         alpha: f64,
     },
     /// Simulated binary crossover (Deb & Agrawal 1995).
+    #[strum(to_string = "sbx:{eta}")]
     Sbx {
         /// How near to the parents, 0 to 1000: the larger, the nearer.
         eta: f64,
@@ -70,7 +75,10 @@ pub enum Crossover {
 }
 
 /// How point mutation changes a value. What leaves the range is mirrored at its ends.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Serialize, Deserialize, strum::Display, strum::EnumCount,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(try_from = "String", into = "String")]
 pub enum Mutation {
     /// Uniformly, by at most the point amount.
@@ -78,22 +86,22 @@ pub enum Mutation {
     /// By a normal number with the point amount as its standard deviation.
     Gaussian,
     /// Polynomially within the range (Deb & Agrawal 1999), times the point amount.
+    #[strum(to_string = "polynomial:{eta}")]
     Polynomial {
         /// How small changes are, 0 to 1000: the larger, the smaller.
         eta: f64,
     },
 }
 
-impl fmt::Display for Crossover {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Crossover::OnePoint => write!(f, "one-point"),
-            Crossover::TwoPoint => write!(f, "two-point"),
-            Crossover::Uniform => write!(f, "uniform"),
-            Crossover::Blend { alpha } => write!(f, "blend:{alpha}"),
-            Crossover::Sbx { eta } => write!(f, "sbx:{eta}"),
-        }
-    }
+impl Crossover {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Crossover; Crossover::COUNT] = [
+        Crossover::OnePoint,
+        Crossover::TwoPoint,
+        Crossover::Uniform,
+        Crossover::Blend { alpha: 0.5 },
+        Crossover::Sbx { eta: 15.0 },
+    ];
 }
 
 impl FromStr for Crossover {
@@ -101,29 +109,21 @@ impl FromStr for Crossover {
 
     /// Reads what `Display` writes; without its number an operator takes its usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "one-point" => scheme.plain(Crossover::OnePoint),
-            "two-point" => scheme.plain(Crossover::TwoPoint),
-            "uniform" => scheme.plain(Crossover::Uniform),
-            "blend" => Ok(Crossover::Blend { alpha: scheme.number(0.5, 0.0, 2.0)? }),
-            "sbx" => Ok(Crossover::Sbx { eta: scheme.number(15.0, 0.0, 1000.0)? }),
-            _ => {
-                Err(scheme
-                    .unknown("crossover", "one-point, two-point, uniform, blend:0.5 or sbx:15"))
+        let (usual, scheme) = choice::Scheme::of("crossover", &Self::USUAL, text)?;
+        match usual {
+            Crossover::Blend { alpha } => {
+                Ok(Crossover::Blend { alpha: scheme.number(alpha, 0.0, 2.0)? })
             }
+            Crossover::Sbx { eta } => Ok(Crossover::Sbx { eta: scheme.number(eta, 0.0, 1000.0)? }),
+            plain => scheme.plain(plain),
         }
     }
 }
 
-impl fmt::Display for Mutation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Mutation::Uniform => write!(f, "uniform"),
-            Mutation::Gaussian => write!(f, "gaussian"),
-            Mutation::Polynomial { eta } => write!(f, "polynomial:{eta}"),
-        }
-    }
+impl Mutation {
+    /// One of every kind, with its usual number.
+    pub const USUAL: [Mutation; Mutation::COUNT] =
+        [Mutation::Uniform, Mutation::Gaussian, Mutation::Polynomial { eta: 20.0 }];
 }
 
 impl FromStr for Mutation {
@@ -131,12 +131,12 @@ impl FromStr for Mutation {
 
     /// Reads what `Display` writes; without its number an operator takes its usual one.
     fn from_str(text: &str) -> Result<Self, String> {
-        let scheme = choice::Scheme::of(text);
-        match scheme.name {
-            "uniform" => scheme.plain(Mutation::Uniform),
-            "gaussian" => scheme.plain(Mutation::Gaussian),
-            "polynomial" => Ok(Mutation::Polynomial { eta: scheme.number(20.0, 0.0, 1000.0)? }),
-            _ => Err(scheme.unknown("mutation", "uniform, gaussian or polynomial:20")),
+        let (usual, scheme) = choice::Scheme::of("mutation", &Self::USUAL, text)?;
+        match usual {
+            Mutation::Polynomial { eta } => {
+                Ok(Mutation::Polynomial { eta: scheme.number(eta, 0.0, 1000.0)? })
+            }
+            plain => scheme.plain(plain),
         }
     }
 }
@@ -154,12 +154,12 @@ mod tests {
 
     #[test]
     fn an_operator_is_read_as_it_is_written() {
-        for operator in ["one-point", "two-point", "uniform", "blend:0.5", "sbx:15"] {
-            assert_eq!(operator.parse::<Crossover>().unwrap().to_string(), operator);
-        }
-        for operator in ["uniform", "gaussian", "polynomial:20"] {
-            assert_eq!(operator.parse::<Mutation>().unwrap().to_string(), operator);
-        }
+        let names = ["one-point", "two-point", "uniform", "blend:0.5", "sbx:15"];
+        assert_eq!(Crossover::USUAL.map(|operator| operator.to_string()), names);
+        assert_eq!(names.map(str::parse), Crossover::USUAL.map(Ok));
+        let names = ["uniform", "gaussian", "polynomial:20"];
+        assert_eq!(Mutation::USUAL.map(|operator| operator.to_string()), names);
+        assert_eq!(names.map(str::parse), Mutation::USUAL.map(Ok));
         assert_eq!("sbx".parse(), Ok(Crossover::Sbx { eta: 15.0 }));
         for wrong in ["", "three-point", "uniform:2", "blend:-1", "sbx:NaN"] {
             assert!(wrong.parse::<Crossover>().is_err() && wrong.parse::<Mutation>().is_err());

@@ -26,7 +26,8 @@ impl Gene for networks::Gene {
 }
 
 /// What networks have to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::VariantArray)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Test {
     /// Exclusive or: needs a hidden neuron.
     Xor,
@@ -37,9 +38,6 @@ pub enum Test {
 }
 
 impl Test {
-    /// Every test.
-    pub const ALL: [Test; 3] = [Test::Xor, Test::DoublePole, Test::DoublePoleBlind];
-
     /// What goes in and comes out.
     pub fn sockets(self) -> Sockets {
         let inputs = match self {
@@ -99,23 +97,7 @@ impl Test {
     }
 }
 
-impl std::fmt::Display for Test {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Test::Xor => "xor",
-            Test::DoublePole => "double-pole",
-            Test::DoublePoleBlind => "double-pole-blind",
-        })
-    }
-}
-
-impl std::str::FromStr for Test {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("test", &Test::ALL, text)
-    }
-}
+choice::one_of!("test", Test);
 
 /// Networks that grow until they pass a test.
 ///

@@ -10,32 +10,25 @@ use crate::simulation::{Engine, Measurement, Trial};
 use definition::Definition;
 use serde::{Deserialize, Serialize};
 
-/// Makes the modules of the tasks, and the enum of them with their names.
+/// Makes the modules of the tasks, and the enum of them.
 macro_rules! tasks {
     ($($(#[$attribute:meta])* $variant:ident => $module:ident,)+) => {
         $(mod $module;)+
 
         /// What a creature has to do.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+        #[derive(strum::Display, strum::VariantArray)]
+        #[strum(serialize_all = "kebab-case")]
         #[serde(rename_all = "kebab-case")]
         pub enum Task {
             $($(#[$attribute])* $variant,)+
         }
 
         impl Task {
-            /// Every task.
-            pub const ALL: [Task; [$(stringify!($module)),+].len()] = [$(Task::$variant),+];
-
             /// All that there is to say of it.
             fn definition(self) -> &'static Definition {
                 match self {
                     $(Task::$variant => &$module::DEFINITION,)+
-                }
-            }
-
-            fn name(self) -> &'static str {
-                match self {
-                    $(Task::$variant => stringify!($module),)+
                 }
             }
         }
@@ -98,19 +91,7 @@ impl Task {
     }
 }
 
-impl std::fmt::Display for Task {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.name())
-    }
-}
-
-impl std::str::FromStr for Task {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("task", &Task::ALL, text)
-    }
-}
+choice::one_of!("task", Task);
 
 #[cfg(test)]
 mod tests {

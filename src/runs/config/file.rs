@@ -8,6 +8,7 @@ use crate::runs::setting::{Section, Setting};
 use crate::runs::terrains;
 use crate::store::{RunDir, file};
 use std::path::Path;
+use strum::VariantArray;
 use toml::{Table, Value};
 
 /// The largest configuration file, in bytes; ours have a thousand.
@@ -108,7 +109,7 @@ impl Config {
             left.remove(useless);
         }
         let mut text = String::new();
-        for section in Section::ALL {
+        for &section in Section::VARIANTS {
             let own = SETTINGS.iter().filter(|setting| setting.about.section == section);
             let line = |name: &str| Some(format!("{name} = {}\n", left.remove(name)?));
             let lines: String = own.map(|setting| setting.name.as_str()).filter_map(line).collect();
@@ -166,11 +167,11 @@ impl Config {
 /// # Errors
 /// If it says something twice.
 pub fn flat(said: Table) -> Result<Table, String> {
-    let is_section = |key: &str| Section::ALL.iter().any(|section| section.table() == Some(key));
+    let sections: Vec<String> = Section::VARIANTS.iter().filter_map(|it| it.table()).collect();
     let mut flat = Table::new();
     for (key, value) in said {
         let entries = match value {
-            Value::Table(section) if is_section(&key) => section,
+            Value::Table(section) if sections.contains(&key) => section,
             value => Table::from_iter([(key, value)]),
         };
         for (key, value) in entries {

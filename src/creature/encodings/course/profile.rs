@@ -7,7 +7,19 @@ use serde::{Deserialize, Serialize};
 pub const COURSEWORK_LINKS_MAX: usize = 512;
 
 /// A reading of the gene table, [`PARAMETERS`](super::PARAMETERS).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Default,
+    Serialize,
+    Deserialize,
+    strum::Display,
+    strum::VariantArray,
+)]
+#[strum(serialize_all = "kebab-case")]
 #[serde(rename_all = "kebab-case")]
 pub enum Profile {
     /// The lecture's parameters with ranges in which bodies can really walk.
@@ -20,9 +32,6 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Every profile.
-    pub const ALL: [Profile; 3] = [Profile::Native, Profile::Lecture, Profile::Coursework];
-
     /// The time between two motor updates, in seconds.
     ///
     /// The course updates every 24 of 240 steps; that is too coarse for a stride of half a second.
@@ -39,20 +48,4 @@ impl Profile {
     }
 }
 
-impl std::fmt::Display for Profile {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Profile::Native => "native",
-            Profile::Lecture => "lecture",
-            Profile::Coursework => "coursework",
-        })
-    }
-}
-
-impl std::str::FromStr for Profile {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        choice::named("profile", &Profile::ALL, text)
-    }
-}
+choice::one_of!("profile", Profile);
