@@ -120,7 +120,7 @@ impl<E: Encoding> Locomotion<E> {
         score: f64,
         hurdle: Fitness,
     ) -> Result<f64, Outcome> {
-        let other = Self { engine: self.engine.other(), ..self.clone() };
+        let other = Self { engine: self.engine.judge(), ..self.clone() };
         let usual = Trial { steps_per_s: other.trial().steps_per_s, ..usual.clone() };
         let trials = match self.robustness.trials {
             0 => vec![usual],
@@ -159,7 +159,7 @@ impl<E: Encoding> Locomotion<E> {
     /// What a body gets in the other engine, in as many perturbations as its score has and none of the same ones. A
     /// trial that blew up counts as a score of 0.
     pub fn elsewhere(&self, creature: &Creature) -> Fitness {
-        let (engine, trials) = (self.engine.other(), self.robustness.trials);
+        let (engine, trials) = (self.engine.judge(), self.robustness.trials);
         let results = self.try_perturbed(creature, engine, self.unscored(), trials);
         let scores: Vec<f64> = results.into_iter().map(|result| result.unwrap_or(0.0)).collect();
         Fitness::new(self.robustness.by.of(&scores))

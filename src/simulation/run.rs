@@ -50,11 +50,18 @@ pub enum Meeting {
 /// An engine cannot do what is asked of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "bodies do not collide in {engine}: choose engine rapier, or let them pass through each other"
+    "bodies do not collide in {engine}: choose engine {}, or let them pass through each other",
+    colliding()
 )]
 pub struct CannotCollide {
     /// The engine.
     pub engine: Engine,
+}
+
+/// The engines in which bodies collide, by name.
+fn colliding() -> String {
+    let engines = Engine::ALL.into_iter().filter(|engine| engine.lets_bodies_collide());
+    engines.map(|engine| engine.to_string()).collect::<Vec<_>>().join(" or ")
 }
 
 /// Tries several bodies in one world, and films them; the measurements are in their order. The first body that blows
@@ -68,14 +75,16 @@ pub fn film_together(
     meeting: Meeting,
     engine: Engine,
 ) -> Result<(Result<Vec<Measurement>, Failure>, Trajectory), CannotCollide> {
-    let mut trial = trial.clone();
     let collide = meeting == Meeting::Collide;
+    if collide && !engine.lets_bodies_collide() {
+        return Err(CannotCollide { engine });
+    }
+    let mut trial = trial.clone();
     trial.guards.keeps_ledger &= !collide;
     let assembly = Assembly::together(entrants, &trial);
     let mut camera = Camera::new(entrants, &trial);
     let creatures: Vec<&Creature> = entrants.iter().map(|entrant| entrant.creature).collect();
     let result = match (engine, &trial.ground) {
-        (Engine::Featherstone, _) if collide => return Err(CannotCollide { engine }),
         (Engine::Rapier, _) => {
             let world = RapierWorld::of_several(&assembly, &trial, collide);
             run_in(world, assembly, &creatures, &trial, &mut camera)

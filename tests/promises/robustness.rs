@@ -132,8 +132,8 @@ fn a_score_that_the_judge_does_not_confirm_is_what_it_finds() {
             let score = |problem: &Locomotion| problem.evaluate(&genome).fitness;
             let creature = own.express(&genome).unwrap();
             let others = [16, 17, 18, 19].map(|index| {
-                let trial = Task::Walk.trial_in(engine.other()).perturbed(index);
-                let measured = simulation::simulate(&creature, &trial, engine.other()).unwrap();
+                let trial = Task::Walk.trial_in(engine.judge()).perturbed(index);
+                let measured = simulation::simulate(&creature, &trial, engine.judge()).unwrap();
                 Task::Walk.score(&measured)
             });
             let other = Fitness::new(RobustBy::Mean.of(&others));

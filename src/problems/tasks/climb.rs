@@ -8,7 +8,7 @@ use crate::simulation::terrain::mountain;
 pub const DEFINITION: Definition = Definition {
     aim: "get up the course's mountain",
     trial: || walk::trial().on(mountain()),
-    own_steps_per_s: None,
+    long_steps_per_s: None,
     score: |measured| progress::climbed_m(&measured.heights_m),
     ..walk::DEFINITION
 };

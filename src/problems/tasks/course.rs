@@ -9,7 +9,7 @@ pub const DEFINITION: Definition = Definition {
     aim: "as the course program measures",
     unit: "m",
     trial,
-    own_steps_per_s: None,
+    long_steps_per_s: None,
     // Distance is all that counts, however it came about.
     is_pushed: false,
     score: |measured| (measured.root_last_m - measured.root_first_m).norm(),

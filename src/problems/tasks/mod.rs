@@ -64,8 +64,8 @@ impl Task {
     /// in other engines better than what evolved at 240 Hz: benches/RESULTS.md. On terrains nobody has measured it.
     pub fn trial_in(self, engine: Engine) -> Trial {
         let trial = self.trial();
-        match (self.definition().own_steps_per_s, engine) {
-            (Some(steps_per_s), Engine::Featherstone) => Trial { steps_per_s, ..trial },
+        match self.definition().long_steps_per_s {
+            Some(steps_per_s) if engine.takes_long_steps() => Trial { steps_per_s, ..trial },
             _ => trial,
         }
     }

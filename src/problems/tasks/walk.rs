@@ -8,7 +8,7 @@ pub const DEFINITION: Definition = Definition {
     aim: "get away",
     unit: "m",
     trial,
-    own_steps_per_s: Some(120),
+    long_steps_per_s: Some(120),
     is_pushed: true,
     score: |measured| progress::away_m(&measured.track_m),
 };
