@@ -7,7 +7,7 @@ use crate::creature::encodings::{Course, Encoding, ExpressionError};
 use crate::evolution::variation::sequences::Layout;
 use crate::evolution::{self, Evaluation, Fitness, Hurdles, Outcome, Problem, Variation};
 use crate::rng::Stream;
-use crate::simulation::{self, Engine, Terrain, Trajectory, Trial};
+use crate::simulation::{self, CannotCollide, Engine, Terrain, Trajectory, Trial};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
@@ -63,6 +63,14 @@ impl<E: Encoding> Locomotion<E> {
             None => trial,
             Some(terrain) => trial.on(Arc::clone(terrain)),
         }
+    }
+
+    /// Whether its engine can do its trials.
+    ///
+    /// # Errors
+    /// If there is something to collide with, and the engine lets no bodies collide.
+    pub fn check(&self) -> Result<(), CannotCollide> {
+        simulation::check(self.engine, &self.trial())
     }
 
     /// Expresses a genome.
@@ -191,11 +199,13 @@ impl<E: Encoding> Problem for Locomotion<E> {
         self.judged || self.robustness.is_wanted()
     }
 
-    /// The mean of half of the usual fresh trials, in the fastest engine.
+    /// The mean of half of the usual fresh trials, in the fastest engine that can do them.
     fn validate(&self, genome: &[E::Gene]) -> Option<Fitness> {
         let Ok(creature) = self.express(genome) else { return Some(Fitness::WORST) };
         let trials = self.fresh_trials() / 2;
-        let found = self.validate_body(&creature, Engine::FASTEST, trials);
+        let can_do = simulation::check(Engine::FASTEST, &self.trial()).is_ok();
+        let engine = if can_do { Engine::FASTEST } else { self.engine };
+        let found = self.validate_body(&creature, engine, trials);
         Some(Fitness::new(found.mean))
     }
 

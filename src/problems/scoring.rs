@@ -112,7 +112,7 @@ impl<E: Encoding> Locomotion<E> {
     }
 
     /// A body's score if the other engine confirms it in perturbations of its own, else what it gets there, as far as
-    /// it gets over the judge's hurdle.
+    /// it gets over the judge's hurdle. Nobody is judged by an engine that cannot do the trial.
     fn judge(
         &self,
         creature: &Creature,
@@ -120,7 +120,8 @@ impl<E: Encoding> Locomotion<E> {
         score: f64,
         hurdle: Fitness,
     ) -> Result<f64, Outcome> {
-        let other = Self { engine: self.engine.judge(), ..self.clone() };
+        let Some(engine) = self.judge_of(usual) else { return Ok(score) };
+        let other = Self { engine, ..self.clone() };
         let usual = Trial { steps_per_s: other.trial().steps_per_s, ..usual.clone() };
         let trials = match self.robustness.trials {
             0 => vec![usual],
@@ -156,10 +157,17 @@ impl<E: Encoding> Locomotion<E> {
         (score, nearest.map_or_else(|| usual.clone(), |(trial, _)| trial))
     }
 
-    /// What a body gets in the other engine, in as many perturbations as its score has and none of the same ones. A
-    /// trial that blew up counts as a score of 0.
+    /// The engine that judges a trial, if it can do it.
+    fn judge_of(&self, trial: &Trial) -> Option<Engine> {
+        let judge = self.engine.judge();
+        simulation::check(judge, trial).is_ok().then_some(judge)
+    }
+
+    /// What a body gets in the other engine, or the own one if only that can do the trial, in as many perturbations as
+    /// its score has and none of the same ones. A trial that blew up counts as a score of 0.
     pub fn elsewhere(&self, creature: &Creature) -> Fitness {
-        let (engine, trials) = (self.engine.judge(), self.robustness.trials);
+        let engine = self.judge_of(&self.trial()).unwrap_or(self.engine);
+        let trials = self.robustness.trials;
         let results = self.try_perturbed(creature, engine, self.unscored(), trials);
         let scores: Vec<f64> = results.into_iter().map(|result| result.unwrap_or(0.0)).collect();
         Fitness::new(self.robustness.by.of(&scores))
@@ -196,9 +204,11 @@ impl<E: Encoding> Locomotion<E> {
         4 * self.robustness.trials.max(1)
     }
 
-    /// Tries a body in so many fresh perturbations in each engine.
+    /// Tries a body in so many fresh perturbations in each engine that can do the trial.
     pub fn validate_in_each(&self, creature: &Creature, trials: u32) -> Vec<Validation> {
-        Engine::ALL.map(|engine| self.validate_body(creature, engine, trials)).to_vec()
+        let usual = self.trial();
+        let engines = Engine::ALL.into_iter().filter(|it| simulation::check(*it, &usual).is_ok());
+        engines.map(|engine| self.validate_body(creature, engine, trials)).collect()
     }
 
     /// Tries a body in so many fresh perturbations in an engine, on the threads of the current rayon pool.

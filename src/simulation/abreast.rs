@@ -68,8 +68,10 @@ pub fn simulate_each(
     trials: &[Trial],
     engine: Engine,
 ) -> Vec<Result<Measurement, Failure>> {
+    let one_by_one = || trials.iter().map(|trial| simulate(creature, trial, engine)).collect();
     match engine {
-        Engine::Rapier => trials.iter().map(|trial| simulate(creature, trial, engine)).collect(),
+        Engine::Rapier => one_by_one(),
+        Engine::Featherstone if trials.iter().any(|trial| !trial.others.is_empty()) => one_by_one(),
         Engine::Featherstone if trials.len() == 1 => {
             simulate_abreast(creature, trials, Abreast::One)
         }
@@ -77,7 +79,7 @@ pub fn simulate_each(
     }
 }
 
-/// Tries a creature in our own engine, with so many trials at a time; on a terrain with one, since there more are no
+/// Tries a creature alone in our own engine, with so many trials at a time; on a terrain with one, since there more are no
 /// faster.
 pub fn simulate_abreast(
     creature: &Creature,
@@ -163,7 +165,7 @@ impl<'a, G: Footing<W>, W: Width> Batch<'a, G, W> {
         let mut world = self.worlds.lane(lane);
         let stepped = world.check();
         if let Some(result) = attempt.go_on(stepped, &mut world, &mut ()) {
-            self.results[*index] = Some(result.map(Measurement::only));
+            self.results[*index] = Some(result.map(Measurement::of_first));
             self.attempts[lane] = None;
             self.begin(lane);
         }

@@ -5,7 +5,7 @@
 use super::perturbation::Perturbation;
 use super::start::{LEAN_RAD, Start};
 use super::terrain::Ground;
-use super::trial::Trial;
+use super::trial::{Other, Trial};
 use crate::creature::{Creature, Inertia, Joint, JointKind, Link, Morphology, Shape};
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::f64::consts::PI;
@@ -46,6 +46,16 @@ impl<'a> Entrant<'a> {
     /// One that begins at the trial's start.
     pub fn alone(creature: &'a Creature) -> Self {
         Self { creature, offset_m: Vector3::zeros(), yaw_rad: 0.0 }
+    }
+
+    /// The creature that a trial is of, and the others in its world.
+    pub fn all(creature: &'a Creature, trial: &'a Trial) -> Vec<Self> {
+        let others = trial.others.iter().map(|Other { creature, offset_m, yaw_rad }| Self {
+            creature,
+            offset_m: *offset_m,
+            yaw_rad: *yaw_rad,
+        });
+        [Self::alone(creature)].into_iter().chain(others).collect()
     }
 }
 

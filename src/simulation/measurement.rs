@@ -26,6 +26,8 @@ pub struct Measurement {
     pub poses: Poses,
     /// How far the body reaches from its root at rest, in metres.
     pub extent_m: f64,
+    /// The same of who and what else is in its world, in the order of [`Trial::others`](super::Trial::others).
+    pub others: Vec<Measurement>,
 }
 
 /// Positions on the track of the centre of mass are this far apart, in seconds.
@@ -66,8 +68,10 @@ impl Poses {
 }
 
 impl Measurement {
-    /// That of the only body of a trial.
-    pub(super) fn only(mut measured: Vec<Self>) -> Self {
-        measured.pop().expect("every body of a trial is measured")
+    /// That of the first body of a trial, with those of the others.
+    pub(super) fn of_first(mut measured: Vec<Self>) -> Self {
+        // There is a first one: every body of a trial is measured.
+        let first = measured.remove(0);
+        Self { others: measured, ..first }
     }
 }

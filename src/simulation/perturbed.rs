@@ -57,6 +57,7 @@ mod tests {
         settle_s: 0.5,
         scored_s: 8.0,
         guards: Guards::ALL,
+        others: Vec::new(),
     };
 
     #[test]

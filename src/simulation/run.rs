@@ -33,7 +33,7 @@ pub fn film(
     trial: &Trial,
     engine: Engine,
 ) -> (Result<Measurement, Failure>, Trajectory) {
-    let mut camera = Camera::new(&[Entrant::alone(creature)], trial);
+    let mut camera = Camera::new(&Entrant::all(creature, trial), trial);
     let result = run(creature, trial, engine, &mut camera);
     (result, camera.trajectory)
 }
@@ -45,6 +45,17 @@ pub enum Meeting {
     Pass,
     /// They collide.
     Collide,
+}
+
+/// Whether an engine can do a trial as it is meant.
+///
+/// # Errors
+/// If there is something to collide with, and it lets no bodies collide.
+pub fn check(engine: Engine, trial: &Trial) -> Result<(), CannotCollide> {
+    match trial.others.is_empty() || engine.lets_bodies_collide() {
+        true => Ok(()),
+        false => Err(CannotCollide { engine }),
+    }
 }
 
 /// An engine cannot do what is asked of it.
@@ -64,7 +75,7 @@ fn colliding() -> String {
     engines.map(|engine| engine.to_string()).collect::<Vec<_>>().join(" or ")
 }
 
-/// Tries several bodies in one world, and films them; the measurements are in their order. The first body that blows
+/// Tries several bodies in one world, and none of the trial's others, and films them; the measurements are in their order. The first body that blows
 /// up ends the trial for all. Bodies that collide push each other, so that no ledger of their momentum is kept.
 ///
 /// # Errors
@@ -79,28 +90,39 @@ pub fn film_together(
     if collide && !engine.lets_bodies_collide() {
         return Err(CannotCollide { engine });
     }
+    let mut camera = Camera::new(entrants, trial);
+    let result = run_together(entrants, trial, meeting, engine, &mut camera);
+    Ok((result, camera.trajectory))
+}
+
+fn run_together(
+    entrants: &[Entrant],
+    trial: &Trial,
+    meeting: Meeting,
+    engine: Engine,
+    observer: &mut impl Observer,
+) -> Result<Vec<Measurement>, Failure> {
+    let collide = meeting == Meeting::Collide;
     let mut trial = trial.clone();
     trial.guards.keeps_ledger &= !collide;
     let assembly = Assembly::together(entrants, &trial);
-    let mut camera = Camera::new(entrants, &trial);
     let creatures: Vec<&Creature> = entrants.iter().map(|entrant| entrant.creature).collect();
-    let result = match (engine, &trial.ground) {
+    match (engine, &trial.ground) {
         (Engine::Rapier, _) => {
             let world = RapierWorld::of_several(&assembly, &trial, collide);
-            run_in(world, assembly, &creatures, &trial, &mut camera)
+            run_in(world, assembly, &creatures, &trial, observer)
         }
         (Engine::Featherstone, Ground::Plane) => {
             let world = Separate::new(&assembly, |body| FeatherstoneWorld::new(body, &trial));
-            run_in(world, assembly, &creatures, &trial, &mut camera)
+            run_in(world, assembly, &creatures, &trial, observer)
         }
         (Engine::Featherstone, Ground::Terrain(terrain)) => {
             let on =
                 |body: &Assembly| FeatherstoneWorld::on(Relief(Arc::clone(terrain)), body, &trial);
             let world = Separate::new(&assembly, on);
-            run_in(world, assembly, &creatures, &trial, &mut camera)
+            run_in(world, assembly, &creatures, &trial, observer)
         }
-    };
-    Ok((result, camera.trajectory))
+    }
 }
 
 struct Camera<'a> {
@@ -134,6 +156,12 @@ fn run(
     engine: Engine,
     observer: &mut impl Observer,
 ) -> Result<Measurement, Failure> {
+    if !trial.others.is_empty() {
+        let meeting = if engine.lets_bodies_collide() { Meeting::Collide } else { Meeting::Pass };
+        let entrants = Entrant::all(creature, trial);
+        let measured = run_together(&entrants, trial, meeting, engine, observer);
+        return measured.map(Measurement::of_first);
+    }
     let assembly = Assembly::new(creature, trial);
     let creatures = [creature];
     let measured = match (engine, &trial.ground) {
@@ -148,7 +176,7 @@ fn run(
             run_in(world, assembly, &creatures, trial, observer)
         }
     };
-    measured.map(Measurement::only)
+    measured.map(Measurement::of_first)
 }
 
 fn run_in(

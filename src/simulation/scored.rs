@@ -135,6 +135,7 @@ impl Scored {
             heights_m: std::mem::take(&mut self.heights_m),
             poses: std::mem::replace(&mut self.poses, Poses::new(body.parts.len(), 0)),
             extent_m: creature.morphology.extent_m(),
+            others: Vec::new(),
         }
     }
 }

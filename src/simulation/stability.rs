@@ -187,6 +187,7 @@ mod tests {
             settle_s: 0.0,
             scored_s: 2.0,
             guards: Guards::ALL,
+            others: Vec::new(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::terrain::Ground;
 use crate::creature::{Creature, Shape};
+use std::ops::Range;
 
 /// Frames a second in a film of a trial.
 pub const FRAMES_PER_S: f64 = 60.0;
@@ -45,6 +46,20 @@ impl Trajectory {
             shapes.extend(links.iter().map(|link| link.shape));
         }
         Self { shapes, bodies, times_s: Vec::new(), poses: Vec::new(), scoring_from_s, ground }
+    }
+
+    /// Which links are whose, body by body.
+    pub fn links(&self) -> impl Iterator<Item = Range<usize>> {
+        self.bodies.iter().scan(0, |end, links| {
+            let start = *end;
+            *end += links;
+            Some(start..*end)
+        })
+    }
+
+    /// Where the links of the first body are in a frame.
+    pub fn first_body(&self, frame: usize) -> &[Pose] {
+        &self.poses[frame][self.links().next().unwrap_or_default()]
     }
 
     /// Forgets every frame.

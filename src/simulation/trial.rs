@@ -5,6 +5,8 @@ use super::medium::Medium;
 use super::perturbation::Perturbation;
 use super::start::Start;
 use super::terrain::{Ground, Terrain};
+use crate::creature::Creature;
+use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// How a body is tried.
@@ -29,6 +31,20 @@ pub struct Trial {
     pub scored_s: f64,
     /// What it is refused for.
     pub guards: Guards,
+    /// Who and what else is in its world: they and the body push each other in an engine in which bodies collide, and
+    /// pass through each other in another one.
+    pub others: Vec<Other>,
+}
+
+/// A creature in the world of the one that is tried, or a box that lies about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Other {
+    /// Who.
+    pub creature: Arc<Creature>,
+    /// How far from the trial's start it begins, in metres.
+    pub offset_m: Vector3<f64>,
+    /// By what it is turned about the vertical, in radians.
+    pub yaw_rad: f64,
 }
 
 /// What a body is refused for in a trial, because no body does it.
@@ -62,6 +78,11 @@ impl Trial {
     pub fn on(self, terrain: Arc<Terrain>) -> Self {
         let guards = Guards { keeps_ledger: false, ..self.guards };
         Self { ground: Ground::Terrain(terrain), guards, ..self }
+    }
+
+    /// The creatures among [`Trial::others`].
+    pub fn other_creatures(&self) -> Vec<Creature> {
+        self.others.iter().map(|other| Creature::clone(&other.creature)).collect()
     }
 
     /// The simulated time after a number of steps, in seconds.

@@ -1,6 +1,6 @@
 //! What is shown of a champion.
 
-use crate::creature::{Controller, Morphology};
+use crate::creature::Creature;
 use crate::simulation::trajectory::Trajectory;
 
 /// What is shown of a champion.
@@ -16,10 +16,10 @@ pub struct Clip {
     pub label: String,
     /// What stands above it where many are seen at once.
     pub short_label: String,
-    /// Its body.
-    pub morphology: Morphology,
-    /// What moves it.
-    pub controller: Controller,
-    /// How it moves.
+    /// Its body and what moves it.
+    pub creature: Creature,
+    /// Who and what else is in its world, as many in every clip of a film.
+    pub others: Vec<Creature>,
+    /// How all of them move, the champion first.
     pub trajectory: Trajectory,
 }

@@ -155,7 +155,7 @@ impl Film {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::creature::{Controller, Morphology};
+    use crate::creature::{Controller, Creature, Morphology};
     use crate::simulation::Ground;
     use crate::simulation::trajectory::Trajectory;
     use nalgebra::UnitQuaternion;
@@ -235,8 +235,11 @@ mod tests {
             generation,
             label: String::new(),
             short_label: String::new(),
-            morphology: Morphology { links: vec![], root_rotation: UnitQuaternion::identity() },
-            controller: Controller::of_waves(0.1, []),
+            creature: Creature {
+                morphology: Morphology { links: vec![], root_rotation: UnitQuaternion::identity() },
+                controller: Controller::of_waves(0.1, []),
+            },
+            others: vec![],
             trajectory,
         }
     }

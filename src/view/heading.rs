@@ -25,8 +25,8 @@ impl Heading {
     pub fn of(morphology: &Morphology, trajectory: &Trajectory) -> Self {
         let Trajectory { times_s, poses, scoring_from_s, ground, .. } = trajectory;
         let begins = times_s.partition_point(|time| time < scoring_from_s).min(poses.len() - 1);
-        let [start, end] =
-            [begins, poses.len() - 1].map(|frame| centre_of_mass(morphology, &poses[frame]));
+        let [start, end] = [begins, poses.len() - 1]
+            .map(|frame| centre_of_mass(morphology, trajectory.first_body(frame)));
         if ground.terrain().is_some() {
             return Self { start: [0.0; 2], cos: 1.0, sin: 0.0, begins: start };
         }
@@ -91,7 +91,7 @@ mod tests {
     #[test]
     fn a_mass_that_lies_beside_its_solid_is_seen_there() {
         let shape = Shape::Sphere { radius_m: 0.1 };
-        let (mut morphology, _) = kit::body(&[shape, shape]);
+        let mut morphology = kit::body(&[shape, shape]).morphology;
         let off = Inertia {
             centre_m: Vector3::new(0.4, 0.0, 0.0),
             about_centre_kg_m2: Matrix3::identity(),

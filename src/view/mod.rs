@@ -25,6 +25,7 @@
 //! /islands/{i}/champion/cylinders
 //! /islands/{i}/champion/capsules   spheres too
 //! /islands/{i}/champion/motors     a pin through each driven joint: light or dark as the motor drives
+//! /islands/{i}/others/{n}/…        who and what else is in its world, from 1, each as the champion
 //! /islands/{i}/trail               the way that its centre of mass came
 //! /islands/{i}/contacts            where it touches the ground, and where it did
 //! /islands/{i}/prints

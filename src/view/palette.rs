@@ -5,7 +5,7 @@ use rerun::Color;
 /// What is behind everything: nearly black, a little blue.
 pub const BACKDROP: [u8; 3] = [14, 17, 24];
 
-/// The start line and the distance marks.
+/// The start line, the distance marks, and bodies that are no island's.
 pub const MARKS: [u8; 3] = [170, 176, 188];
 
 /// Where a foot is on the ground.
@@ -33,9 +33,18 @@ pub fn island(island: u32) -> [u8; 3] {
 
 /// The colour of a link of an island's creature: neighbouring links differ in lightness.
 pub fn link(island: u32, link: usize) -> Color {
+    shaded(self::island(island), link)
+}
+
+/// The colour of a link of who or what is in a creature's world, and no island's.
+pub fn other(link: usize) -> Color {
+    shaded(MARKS, link)
+}
+
+fn shaded(hue: [u8; 3], link: usize) -> Color {
     // The trunk is link 0: the brightest.
     let darkness = [0.0, 0.34, 0.17, 0.42, 0.25][link % 5];
-    opaque(mix(self::island(island), BACKDROP, darkness))
+    opaque(mix(hue, BACKDROP, darkness))
 }
 
 /// The two colours of an island's checkered floor.

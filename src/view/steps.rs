@@ -51,7 +51,7 @@ struct Touch {
 
 fn touches(take: &Take<'_>, frame: usize) -> Vec<Touch> {
     let trajectory = take.trajectory();
-    let links = trajectory.poses[frame].iter().zip(&trajectory.shapes).enumerate();
+    let links = trajectory.first_body(frame).iter().zip(&trajectory.shapes).enumerate();
     let lowest = links.map(|(link, (pose, shape))| {
         let [x, y, _] = pose.position_m.map(f64::from);
         let up = trajectory.ground.normal(x, y);

@@ -28,7 +28,7 @@ const MARKER_MAX: f32 = 0.78;
 /// would cover its body.
 const FLAG_M: f32 = 0.06;
 
-/// The frames of a clip that are shown.
+/// The frames of a clip that are shown. The camera, and all that is drawn but the links, is the champion's.
 pub(super) struct Take<'a> {
     pub screening: Screening<'a>,
     pub frames: Vec<usize>,
@@ -46,13 +46,14 @@ pub(super) struct Take<'a> {
 
 impl<'a> Take<'a> {
     pub fn new(screening: Screening<'a>, slot_s: f64) -> Self {
-        let Clip { morphology, trajectory, .. } = screening.clip;
+        let Clip { creature, trajectory, .. } = screening.clip;
+        let morphology = &creature.morphology;
         // The last moment belongs to the next slot.
         let frames = every(&trajectory.times_s, FRAME_RATE, slot_s - 0.5 / FRAME_RATE);
         let heading = Heading::of(morphology, trajectory);
-        let shown = || frames.iter().map(|&f| &trajectory.poses[f]);
+        let shown = || frames.iter().map(|&f| trajectory.first_body(f));
         let middles: Vec<_> = shown().map(|poses| heading.turn(middle(poses))).collect();
-        let centre = |poses: &Vec<_>| heading.turn(heading::centre_of_mass(morphology, poses));
+        let centre = |poses: &[_]| heading.turn(heading::centre_of_mass(morphology, poses));
         let centres = shown().map(centre).collect();
         let times: Vec<_> = frames.iter().map(|&f| trajectory.times_s[f]).collect();
         let floor_m = |[x, y]: [f32; 2]| floor_m(trajectory, [x, y]);
@@ -176,12 +177,13 @@ impl<'a> Take<'a> {
         self.follow.iter().map(|&[x, _]| x).fold(0.0, f32::max)
     }
 
-    /// The height of the highest point that any link ever reaches, above the ground below the body's middle.
+    /// The height of the highest point that any of its links ever reaches, above the ground below the body's middle.
     fn top_m(&self) -> f32 {
         let trajectory = self.trajectory();
         let tops = self.frames.iter().flat_map(|&f| {
-            let floor_m = floor_m(trajectory, middle(&trajectory.poses[f]));
-            let links = trajectory.poses[f].iter().zip(&trajectory.shapes);
+            let poses = trajectory.first_body(f);
+            let floor_m = floor_m(trajectory, middle(poses));
+            let links = poses.iter().zip(&trajectory.shapes);
             links.map(move |(pose, shape)| pose.position_m[2] + half_height(shape, pose) - floor_m)
         });
         tops.fold(0.0, f32::max)

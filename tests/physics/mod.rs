@@ -4,3 +4,4 @@ pub mod bodies;
 mod climbing;
 mod exploits;
 mod laws;
+mod together;

@@ -71,6 +71,7 @@ mod tests {
             heights_m: Vec::new(),
             poses,
             extent_m: 1.0,
+            others: Vec::new(),
         };
         turns(&measured)
     }

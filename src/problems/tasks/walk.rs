@@ -28,5 +28,6 @@ pub fn trial() -> Trial {
         settle_s: 0.5,
         scored_s: 8.0,
         guards: Guards::ALL,
+        others: Vec::new(),
     }
 }

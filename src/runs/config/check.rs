@@ -30,6 +30,7 @@ impl Config {
         self.check_migrants()?;
         self.terrain.as_ref().map_or(Ok(()), KeptTerrain::check)?;
         self.scales.check(self.profile).map_err(|error| Failure::usage(error.to_string()))?;
+        self.locomotion().check().map_err(|error| Failure::usage(error.to_string()))?;
         match self.seed {
             Some(seed) if seed > SEED_MAX => {
                 Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))

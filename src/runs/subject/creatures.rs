@@ -105,9 +105,9 @@ impl<E: Encoding> Subject for Locomotion<E> {
             // The island survived it, too: it is an outcome like others.
             Err(_) => (Evaluation::failed(Outcome::Panicked), nothing),
         };
-        let Creature { morphology, controller } = self.express(genome).ok()?;
         let (evaluation, trajectory) = filmed;
-        Some(Shot { morphology, controller, evaluation, trajectory })
+        let (creature, others) = (self.express(genome).ok()?, self.trial().other_creatures());
+        Some(Shot { creature, others, evaluation, trajectory })
     }
 }
 

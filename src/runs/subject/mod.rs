@@ -6,7 +6,7 @@ mod networks;
 mod vectors;
 
 #[cfg(feature = "view")]
-use crate::creature::{Controller, Morphology};
+use crate::creature::Creature;
 #[cfg(feature = "view")]
 use crate::evolution::Evaluation;
 use crate::evolution::{Fitness, Problem};
@@ -115,12 +115,12 @@ pub trait Subject: Problem + Clone + Send {
 #[cfg(feature = "view")]
 #[derive(Debug, Clone)]
 pub struct Shot {
-    /// The body.
-    pub morphology: Morphology,
-    /// What moves it.
-    pub controller: Controller,
+    /// The body and what moves it.
+    pub creature: Creature,
+    /// Who and what else was in its world.
+    pub others: Vec<Creature>,
     /// What it got.
     pub evaluation: Evaluation,
-    /// How it moved.
+    /// How all of them moved.
     pub trajectory: Trajectory,
 }

@@ -30,17 +30,22 @@ use super::trial::{Guards, Trial};
 const GRAVITY_M_S2: f64 = 10.0;
 
 /// A body that stands on the ground. The tests step by themselves, so that its times mean nothing.
-const TRIAL: Trial = Trial {
-    steps_per_s: 240,
-    perturbation: Perturbation::NONE,
-    gravity_m_s2: GRAVITY_M_S2,
-    ground: Ground::Plane,
-    medium: Medium::Void,
-    start: Start::LowestAt(0.0),
-    settle_s: 0.0,
-    scored_s: 0.0,
-    guards: Guards { keeps_ledger: false, ..Guards::ALL },
-};
+const TRIAL: Trial = trial(GRAVITY_M_S2, Start::LowestAt(0.0));
 
 /// A body on which nothing acts: without gravity, and out of the ground's reach.
-const SPACE: Trial = Trial { gravity_m_s2: 0.0, start: Start::RootAt(4.0), ..TRIAL };
+const SPACE: Trial = trial(0.0, Start::RootAt(4.0));
+
+const fn trial(gravity_m_s2: f64, start: Start) -> Trial {
+    Trial {
+        steps_per_s: 240,
+        perturbation: Perturbation::NONE,
+        gravity_m_s2,
+        ground: Ground::Plane,
+        medium: Medium::Void,
+        start,
+        settle_s: 0.0,
+        scored_s: 0.0,
+        guards: Guards { keeps_ledger: false, ..Guards::ALL },
+        others: Vec::new(),
+    }
+}

@@ -7,14 +7,16 @@ use super::bodies::{SLED_M, limbs, ridden, sled};
 use crate::creature::Creature;
 use nalgebra::Vector3;
 
-const STANDING: Trial = Trial { settle_s: 0.5, scored_s: 1.0, ..TRIAL };
+fn standing() -> Trial {
+    Trial { settle_s: 0.5, scored_s: 1.0, ..TRIAL }
+}
 
 fn at(creature: &Creature, x_m: f64, z_m: f64) -> Entrant<'_> {
     Entrant { offset_m: Vector3::new(x_m, 0.0, z_m), ..Entrant::alone(creature) }
 }
 
 fn tried(entrants: &[Entrant], meeting: Meeting, engine: Engine) -> (Vec<Measurement>, Trajectory) {
-    let (measured, film) = film_together(entrants, &STANDING, meeting, engine).unwrap();
+    let (measured, film) = film_together(entrants, &standing(), meeting, engine).unwrap();
     (measured.unwrap(), film)
 }
 
@@ -26,7 +28,7 @@ fn bodies_far_apart_do_what_they_do_alone() {
         let (together, film) = tried(&entrants, Meeting::Pass, engine);
         let alone: Vec<Measurement> =
             entrants.iter().flat_map(|it| tried(&[*it], Meeting::Pass, engine).0).collect();
-        assert_eq!(simulate(&a, &STANDING, engine).unwrap(), alone[0], "{engine}");
+        assert_eq!(simulate(&a, &standing(), engine).unwrap(), alone[0], "{engine}");
         for (found, alone) in together.iter().zip(&alone) {
             let away_m = (found.centre_last_m - alone.centre_last_m).norm();
             assert!(away_m < 1e-3, "{engine}: {away_m} m");
@@ -63,7 +65,7 @@ fn a_box_falls_onto_another_one_where_bodies_collide_and_through_it_where_not() 
 fn an_engine_whose_bodies_cannot_collide_says_so() {
     let body = sled().build();
     let refused =
-        film_together(&[at(&body, 0.0, 0.0)], &STANDING, Meeting::Collide, Engine::Featherstone);
+        film_together(&[at(&body, 0.0, 0.0)], &standing(), Meeting::Collide, Engine::Featherstone);
     expect_test::expect![[
         "bodies do not collide in featherstone: choose engine rapier, or let them pass through each other"
     ]]

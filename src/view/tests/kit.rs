@@ -2,7 +2,7 @@
 
 use crate::archipelago::Report;
 use crate::creature::{
-    Controller, Joint, JointKind, Link, Morphology, Motor, Shape, Wave, Waveform,
+    Controller, Creature, Joint, JointKind, Link, Morphology, Motor, Shape, Wave, Waveform,
 };
 use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Spread, Statistics};
@@ -34,13 +34,14 @@ pub fn card(islands: u32) -> RunCard {
 
 pub fn clip(lane: u32, generation: u32, trajectory: Trajectory) -> Clip {
     let label = format!("gen {generation} · 1.50 m");
-    let (morphology, controller) = body(&trajectory.shapes);
+    let creature = body(&trajectory.shapes);
     let short_label = label.clone();
-    Clip { lane, hue: lane, generation, label, short_label, morphology, controller, trajectory }
+    let others = Vec::new();
+    Clip { lane, hue: lane, generation, label, short_label, creature, others, trajectory }
 }
 
 /// A trunk with links that hang from it on driven hinges.
-pub fn body(shapes: &[Shape]) -> (Morphology, Controller) {
+pub fn body(shapes: &[Shape]) -> Creature {
     let joint = Joint {
         parent: 0,
         parent_from_joint: Isometry3::identity(),
@@ -63,7 +64,8 @@ pub fn body(shapes: &[Shape]) -> (Morphology, Controller) {
     let links: Vec<Link> = shapes.iter().enumerate().map(link).collect();
     let driven = links.iter().map(|link| link.joint.as_ref().map(|_| (motor, wave)));
     let controller = Controller::of_waves(0.05, driven);
-    (Morphology { links, root_rotation: UnitQuaternion::identity() }, controller)
+    let morphology = Morphology { links, root_rotation: UnitQuaternion::identity() };
+    Creature { morphology, controller }
 }
 
 pub fn report(island: u32, generation: u32) -> Report {

@@ -1,6 +1,7 @@
 //! What a recording holds, checked by reading it back.
 
 pub mod kit;
+mod together;
 
 use super::*;
 use crate::creature::Shape;
@@ -63,7 +64,7 @@ fn a_champion_runs_along_its_lane_from_the_start_line_whichever_way_it_was_simul
 #[test]
 fn the_links_are_turned_into_the_lane_by_their_common_frame_alone() {
     let walk = walker(60, 2, 0.5);
-    let heading = heading::Heading::of(&body(&walk.shapes).0, &walk);
+    let heading = heading::Heading::of(&body(&walk.shapes).morphology, &walk);
     let [x, y] = heading.turn([0.0, 0.0]);
     let frame = heading.transform();
     let chunks = record(|recorder| {

@@ -107,6 +107,7 @@ impl Body {
             settle_s: 0.0,
             scored_s: 10.0,
             guards: Guards { keeps_ledger: false, ..Guards::ALL },
+            others: Vec::new(),
         }
     }
 

@@ -218,7 +218,7 @@ impl<P: Subject> FilmRecorder<P> {
         let short = self.problem.short(champion.individual.fitness);
         let Champion { generation, individual, .. } = champion;
         let Some(shot) = self.problem.shoot(&individual.genome) else { return Ok(()) };
-        let Shot { morphology, controller, evaluation, trajectory } = shot;
+        let Shot { creature, others, evaluation, trajectory } = shot;
         if evaluation.fitness != individual.fitness {
             let news = format!(
                 "WARNING: the champion of island {island} was reported with {:?}, but gets {:?} here: \
@@ -235,8 +235,8 @@ impl<P: Subject> FilmRecorder<P> {
             generation,
             label: format!("gen {generation} · {score} · {origin}"),
             short_label: format!("{island} · {short}"),
-            morphology,
-            controller,
+            creature,
+            others,
             trajectory,
         })?)
     }

@@ -32,6 +32,7 @@ const TRIAL: Trial = Trial {
     settle_s: 0.0,
     scored_s: 1.0,
     guards: Guards::ALL,
+    others: Vec::new(),
 };
 
 type Motion = Spatial<Alone>;
