@@ -157,6 +157,7 @@ fn a_kind_that_the_next_champion_lacks_is_cleared() {
         recorder.champion(&clip(0, 0, walker(30, 4, 0.3)))?;
         recorder.report(&report(0, 0))?;
         let mut legless = walker(30, 4, 0.3);
+        legless.bodies = vec![1];
         legless.shapes.truncate(1);
         legless.poses.iter_mut().for_each(|links| links.truncate(1));
         recorder.champion(&clip(0, 10, legless))?;
