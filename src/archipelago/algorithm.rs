@@ -33,7 +33,12 @@ impl Algorithm {
         matches!(self, Algorithm::Ga | Algorithm::Panmictic)
     }
 
-    /// Whether islands may differ in how they search.
+    /// Whether offspring are mutants of somebody.
+    pub fn mutates(self) -> bool {
+        self.is_genetic() || self == Algorithm::HillClimb
+    }
+
+    /// Whether there are several islands that exchange migrants, and may differ in how they search.
     pub fn has_islands(self) -> bool {
         self == Algorithm::Ga
     }

@@ -1,11 +1,12 @@
 //! The whole of a run in one struct: `list` has every setting, `defaults` what it is for each problem, `file` reads and
-//! writes it, `check` says whether it can be run, and here is what it comes to.
+//! writes it, `check` says whether it can be run, `meaning` what of it decides nothing, and here is what it comes to.
 
 mod check;
 mod defaults;
 mod file;
 mod limits;
 mod list;
+mod meaning;
 mod parts;
 mod written;
 
@@ -13,6 +14,7 @@ pub use defaults::Wish;
 pub use file::{FILE_BYTES_MAX, flat, one_line};
 pub use limits::*;
 pub use list::{Config, SETTINGS};
+pub use meaning::Unused;
 pub use written::{Launch, SeedGenomes};
 
 use super::failure::Failure;
@@ -121,5 +123,7 @@ mod tests {
         assert_eq!(Config::parse(&flat.join("\n")), Ok(config));
         let twice = Config::parse("elites = 1\n[genetic-algorithm]\nelites = 2");
         assert_eq!(twice, Err("elites is said twice".to_owned()));
+        let misspelt = Config::parse("[migrations]\nmigrants = 2").expect_err("there is none");
+        assert!(misspelt.starts_with("there is no section [migrations]: choose one of vectors, "));
     }
 }

@@ -1,17 +1,20 @@
 //! Power may be lost at any moment: what the disk holds then leads to the same end.
 
+use super::entry::Entry;
 use super::watched_disk::{Disk, Remains};
-use super::{Journal, JournalReader, Logbook, Restored, RunDir};
+use super::{Journal, JournalReader, Logbook, RecordLog, Restored, RunDir};
 use crate::archipelago::{
-    Action, Archipelago, Digest, ExchangeMode, Island, Migration, Protocol, Step, Topology,
+    Action, Archipelago, Arrivals, Digest, ExchangeMode, Island, Migration, Outbox, Protocol,
+    Report, Step, Topology, lockstep,
 };
-use crate::evolution::Strategy;
+use crate::evolution::{Founders, Strategy};
 use crate::problems::bits::{Bit, Bits, Pattern};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::time::Duration;
 use tempfile::TempDir;
 
+const ISLANDS: u32 = 2;
 const GENERATIONS: u32 = 8;
 const CHECKPOINT_INTERVAL: u32 = 2;
 const PROBLEM: Bits = Bits { pattern: Pattern::OneMax, bits: 12, block: 1 };
@@ -21,7 +24,7 @@ const ROUNDS_MAX: u32 = 1_000;
 #[test]
 fn power_that_is_lost_at_any_moment_costs_no_bit() {
     let archipelago = archipelago(ExchangeMode::Sync);
-    let (digest, remains) = watched(&archipelago);
+    let Watched { digest, remains, .. } = watched(&archipelago);
     assert!(remains.len() > 200, "{} moments", remains.len());
     for remains in remains {
         let folder = laid_out(&remains);
@@ -30,30 +33,103 @@ fn power_that_is_lost_at_any_moment_costs_no_bit() {
     }
 }
 
+/// What is left is the beginning of what was recorded, and reaches as far as was promised; the run goes on from it, and
+/// what it has recorded in the end is what it evolved.
 #[test]
 fn where_nobody_waits_power_that_is_lost_costs_nothing_that_was_taken_in() {
     let archipelago = archipelago(ExchangeMode::Async);
-    let (_, remains) = watched(&archipelago);
+    let Watched { digest, records: whole, remains } = watched(&archipelago);
     assert!(remains.len() > 200, "{} moments", remains.len());
+    assert!(whole.iter().all(|record| record.arrivals.iter().any(|it| !it.taken.is_empty())));
+    assert_eq!(evolved_again(&whole, &archipelago), (digest, whole.clone()));
     for remains in remains {
         let folder = laid_out(&remains);
+        let left = Record::all(folder.path());
+        for (index, (left, whole)) in (0..).zip(left.iter().zip(&whole)) {
+            assert!(left.begins(whole), "island {index} recorded {whole:?}, and left {left:?}");
+            let promised =
+                remains.promised.get(&index).map_or(0, |&it| archipelago.migration.begun(it));
+            assert!(left.arrivals.len() >= promised as usize, "island {index}: {left:?}");
+        }
         let again = evolve(folder.path(), &archipelago, &remains.promised);
-        assert!(again.iter().all(|island| island.generation == GENERATIONS));
+        let records = Record::all(folder.path());
+        for (left, record) in left.iter().zip(&records) {
+            assert!(left.begins(record), "{left:?} was changed to {record:?}");
+        }
+        assert_eq!(evolved_again(&records, &archipelago), (Digest::of(&again), records.clone()));
     }
 }
 
-/// Evolves to the end from nothing: what comes of it, and what a loss of power may leave at any moment.
-fn watched(archipelago: &Archipelago) -> (Digest, BTreeSet<Remains>) {
+/// A run to its end that nobody disturbed.
+struct Watched {
+    digest: Digest,
+    records: Vec<Record>,
+    /// What a loss of power may leave at any moment.
+    remains: BTreeSet<Remains>,
+}
+
+fn watched(archipelago: &Archipelago) -> Watched {
     let folder = in_memory();
     Disk::watch(folder.path());
     let islands = evolve(folder.path(), archipelago, &BTreeMap::new());
-    (Digest::of(&islands), Disk::take())
+    let remains = Disk::take();
+    Watched { digest: Digest::of(&islands), records: Record::all(folder.path()), remains }
+}
+
+/// What an island has on record.
+#[derive(Debug, Clone, PartialEq)]
+struct Record {
+    arrivals: Vec<Arrivals>,
+    sent: Vec<Outbox<Bit>>,
+    reports: Vec<Report>,
+}
+
+impl Record {
+    /// Of each island, as far as a folder holds it.
+    fn all(folder: &Path) -> Vec<Self> {
+        let dir = RunDir::at(folder);
+        (0..ISLANDS).map(|index| Self::of(&dir, index)).collect()
+    }
+
+    fn of(dir: &RunDir, index: u32) -> Self {
+        let arrivals = RecordLog::<Arrivals>::read(&dir.arrivals(index));
+        let reports = RecordLog::<Entry>::read(&dir.reports(index)).expect("it is readable");
+        Self {
+            arrivals: arrivals.expect("it is readable").records,
+            sent: RecordLog::read(&dir.migrations(index)).expect("it is readable").records,
+            reports: reports.records.into_iter().map(|entry| entry.report).collect(),
+        }
+    }
+
+    fn begins(&self, whole: &Self) -> bool {
+        whole.arrivals.starts_with(&self.arrivals)
+            && whole.sent.starts_with(&self.sent)
+            && whole.reports.starts_with(&self.reports)
+    }
+}
+
+/// What evolves from the seed and what islands recorded that they took in, and what they would have on record then.
+fn evolved_again(records: &[Record], archipelago: &Archipelago) -> (Digest, Vec<Record>) {
+    let arrivals: Vec<_> = records.iter().map(|record| record.arrivals.clone()).collect();
+    let mut again: Vec<_> = arrivals
+        .iter()
+        .map(|arrivals| Record { arrivals: arrivals.clone(), sent: vec![], reports: vec![] })
+        .collect();
+    let observe = |step: &Step<Bit>| {
+        let record = &mut again[step.island.index as usize];
+        record.sent.extend(step.outbox.clone());
+        record.reports.push(step.report);
+    };
+    let none = &Founders::NONE;
+    let islands = lockstep::replay(&PROBLEM, none, archipelago, GENERATIONS, &arrivals, observe)
+        .expect("all that was taken in was sent");
+    (Digest::of(&islands), again)
 }
 
 fn archipelago(exchange: ExchangeMode) -> Archipelago {
     let strategy = Strategy { population: 6, elites: 1, ..Strategy::default() };
     let migration = Migration { interval: 2, exchange, ..Migration::default() };
-    Archipelago { islands: 2, seed: 5, topology: Topology::Ring, migration, strategy }
+    Archipelago { islands: ISLANDS, seed: 5, topology: Topology::Ring, migration, strategy }
 }
 
 fn in_memory() -> TempDir {

@@ -17,6 +17,11 @@ pub trait Group {
     const HAS_HEADINGS: bool = false;
     /// What follows the default in `--help`.
     const DEFAULT_SUFFIX: &str = "";
+
+    /// What the command does with a setting besides, for `--help`.
+    fn use_of(_: &Setting<Config>) -> Option<&'static str> {
+        None
+    }
 }
 
 /// All settings of a run.
@@ -63,7 +68,15 @@ impl Group for OfReplay {
     fn has(setting: &Setting<Config>) -> bool {
         OfTrial::has(setting)
     }
+
+    fn use_of(setting: &Setting<Config>) -> Option<&'static str> {
+        (setting.name == "robustness").then_some(ROBUSTNESS_FILMED)
+    }
 }
+
+/// What `replay` does with several trials.
+const ROBUSTNESS_FILMED: &str =
+    "The film shows the trial whose score is nearest to what they come to";
 
 /// Those that decide what body a genome describes.
 #[derive(Debug, Clone)]
@@ -157,14 +170,16 @@ fn arg<G: Group>(setting: &'static Setting<Config>, defaults: &Defaults) -> Arg 
         (setting.set)(&mut Config::default(), text)?;
         Ok(text.to_owned())
     };
+    let use_of = G::use_of(setting).map(|said| format!(". {said}")).unwrap_or_default();
     let arg = Arg::new(setting.name.as_str())
         .long(setting.flag())
-        .help(format!("{} {}", setting.help, defaults.in_words(setting, G::DEFAULT_SUFFIX)))
+        .help(format!("{}{use_of} {}", setting.help, defaults.in_words(setting, G::DEFAULT_SUFFIX)))
         .value_parser(read)
         .action(ArgAction::Set);
     let is_switch = defaults.usual.get(&setting.name).is_some_and(Value::is_bool);
     let arg = match (is_switch, setting.about.value_name) {
         (true, _) => arg
+            .value_parser(["true", "false"])
             .num_args(0..=1)
             .require_equals(true)
             .default_missing_value("true")

@@ -1,6 +1,5 @@
 //! What makes a configuration one that can be run.
 
-use super::defaults::Wish;
 use super::limits::{GENES_MAX, GENES_OF_ISLAND_MAX, SEED_MAX};
 use super::list::{Config, SETTINGS};
 use crate::archipelago::Algorithm;
@@ -10,11 +9,7 @@ use crate::evolution::cma;
 use crate::problems::{Function, Pattern};
 use crate::runs::failure::Failure;
 use crate::runs::kind::Kind;
-use crate::runs::setting::{self, About, Section};
 use crate::runs::terrains::KeptTerrain;
-
-/// What only creatures have, besides settings with a flag.
-const FILES_OF_BODIES: [&str; 2] = ["scales", "terrain"];
 
 impl Config {
     /// Says what is wrong with the configuration, if anything.
@@ -22,8 +17,21 @@ impl Config {
     /// # Errors
     /// One sentence that says what to change.
     pub fn check(&self) -> Result<(), Failure> {
+        self.check_values()?;
+        self.check_use()
+    }
+
+    /// Says what is wrong with the values, whether or not all of them mean something: those of a run that was launched
+    /// were checked by the program that launched it.
+    ///
+    /// # Errors
+    /// One sentence that says what to change.
+    pub fn check_values(&self) -> Result<(), Failure> {
         self.check_dimensions()?;
-        for setting in SETTINGS.iter() {
+        let unused = self.unused()?;
+        let is_used =
+            |name: &str| unused.iter().all(|unused| unused.name != name || unused.is_said);
+        for setting in SETTINGS.iter().filter(|setting| is_used(&setting.name)) {
             setting.check(self).map_err(Failure::usage)?;
         }
         self.check_genes()?;
@@ -35,7 +43,7 @@ impl Config {
             Some(seed) if seed > SEED_MAX => {
                 Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
             }
-            _ => self.check_use(),
+            _ => Ok(()),
         }
     }
 
@@ -81,43 +89,6 @@ impl Config {
             ))),
             _ => Ok(()),
         }
-    }
-
-    /// Makes sure that nothing is said that means nothing to the algorithm, who survives or the problem; the ranges must
-    /// have been checked.
-    fn check_use(&self) -> Result<(), Failure> {
-        let Self { problem, dimensions, survival, algorithm, .. } = *self;
-        let wish =
-            Wish { problem: Some(problem), dimensions: Some(dimensions), survival: Some(survival) };
-        let (said, usual) = (self.table()?, Self::default_for(wish).table()?);
-        let is_useless = |about: &About| {
-            [
-                (!(about.algorithm)(algorithm)).then(|| (algorithm.to_string(), "algorithm")),
-                (!(about.survival)(survival)).then(|| (survival.to_string(), "survival")),
-                (!(about.problem)(problem)).then(|| (problem.to_string(), "problem")),
-            ]
-        };
-        let flags =
-            SETTINGS.iter().map(|setting| (setting.name.as_str(), is_useless(&setting.about)));
-        let of_bodies = is_useless(&setting::of(Section::Creatures).tries_bodies());
-        let files = FILES_OF_BODIES.map(|name| (name, of_bodies.clone()));
-        for (name, useless) in flags.chain(files) {
-            if let Some((choice, flag)) = useless.into_iter().flatten().next()
-                && said.get(name) != usual.get(name)
-            {
-                return Err(Failure::usage(format!(
-                    "{name} means nothing to {choice}: leave it out, or choose another --{flag}"
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// The names of the settings that mean nothing to a problem.
-    pub(super) fn useless_to(problem: Kind) -> Vec<&'static str> {
-        let useless = SETTINGS.iter().filter(|setting| !(setting.about.problem)(problem));
-        let files = FILES_OF_BODIES.into_iter().filter(|_| !problem.has_bodies());
-        useless.map(|setting| setting.name.as_str()).chain(files).collect()
     }
 
     fn check_genes(&self) -> Result<(), Failure> {
@@ -181,5 +152,7 @@ mod tests {
         ] {
             assert!(wrong.check().is_err(), "{wrong:?}");
         }
+        let none = Config { max_genes: 0, ..sound }.check().expect_err("it is impossible");
+        assert_eq!(none.message, "max-genes must be from 1 to 1000, not 0");
     }
 }

@@ -13,6 +13,8 @@ use toml::{Table, Value};
 
 /// The largest configuration file, in bytes; ours have a thousand.
 pub const FILE_BYTES_MAX: usize = 1 << 20;
+/// The tables of a configuration that are no sections.
+const TABLES: [&str; 4] = ["scales", "seed-genomes", "terrain", "launch"];
 /// The longest complaint about a file that is passed on, in characters.
 const COMPLAINT_MAX: usize = 400;
 
@@ -90,7 +92,7 @@ impl Config {
         }
         let mut config = Self::read(&dir.config())?;
         terrains::read(&mut config.terrain, dir)?;
-        config.check()?;
+        config.check_values()?;
         match config.is_launched() {
             true => Ok(config),
             false => Err(Failure::usage(format!(
@@ -165,13 +167,20 @@ impl Config {
 /// What a file says, without its sections: those are for people.
 ///
 /// # Errors
-/// If it says something twice.
+/// If it says something twice, or has a section that there is not.
 pub fn flat(said: Table) -> Result<Table, String> {
     let sections: Vec<String> = Section::VARIANTS.iter().filter_map(|it| it.table()).collect();
     let mut flat = Table::new();
     for (key, value) in said {
         let entries = match value {
             Value::Table(section) if sections.contains(&key) => section,
+            Value::Table(_) if !TABLES.contains(&key.as_str()) => {
+                return Err(format!(
+                    "there is no section [{}]: choose one of {}",
+                    harmless(&key),
+                    sections.join(", ")
+                ));
+            }
             value => Table::from_iter([(key, value)]),
         };
         for (key, value) in entries {

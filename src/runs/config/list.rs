@@ -10,11 +10,18 @@ use crate::networks::Start;
 use crate::problems::{RobustBy, Robustness, Task};
 use crate::runs::kind::Kind;
 use crate::runs::setting::Section::{Creatures, GeneticAlgorithm, Run, Running, Vectors};
-use crate::runs::setting::{self, Bounds, Number, Section, Setting, of, settings};
+use crate::runs::setting::{self, About, Bounds, Number, Section, Setting, of, settings};
 use crate::runs::terrains::KeptTerrain;
 use crate::simulation::Engine;
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
+
+/// What decides whose offspring there are.
+const BREEDING: About = of(GeneticAlgorithm).for_algorithm(Algorithm::is_genetic);
+/// What decides how offspring differ from their parents.
+const MUTATION: About = of(GeneticAlgorithm).for_algorithm(Algorithm::mutates);
+/// What islands exchange.
+const EXCHANGE: About = of(Section::Migration).for_algorithm(Algorithm::has_islands);
 
 settings! {
     /// Number of islands, each a process
@@ -64,74 +71,74 @@ settings! {
 
     /// Genes of a random genome
     genes: usize => locomotion.encoding.genes,
-        of(GeneticAlgorithm).value("G").for_problem(Kind::has_genes), in |it| 1.0..=it.max_genes as f64;
+        of(GeneticAlgorithm).value("G").for_problem(Kind::has_genes), in |it| 1.0..=genes_max(it);
     /// Largest number of genes of a genome
     max_genes: usize => archipelago.strategy.variation.genes_max,
         of(GeneticAlgorithm).value("G").for_problem(Kind::is_of_any_length), in |_| 1.0..=GENES_MAX as f64;
     /// How parents are picked: roulette, sus, tournament:SIZE, rank:PRESSURE or truncation:FRACTION; with --survival
     /// sharing the default is sus
     selection: Selection => archipelago.strategy.selection,
-        of(GeneticAlgorithm).value("SCHEME").for_survival(Survival::has_selection);
+        BREEDING.value("SCHEME").for_survival(Survival::has_selection);
     /// Number of the best that live on unchanged
     elites: usize => archipelago.strategy.elites,
-        of(GeneticAlgorithm).value("E").for_survival(Survival::has_elites), in |it| 0.0..=it.population as f64 - 1.0;
+        BREEDING.value("E").for_survival(Survival::has_elites), in |it| 0.0..=it.population as f64 - 1.0;
     /// How the next population is made: generational, drifting, sharing:RADIUS, species:RADIUS (as NEAT
     /// has them), crowding, afpo or map-elites:BINS
     survival: Survival => archipelago.strategy.survival,
-        of(GeneticAlgorithm).value("SCHEME").for_algorithm(Algorithm::is_genetic);
+        BREEDING.value("SCHEME");
     /// How two parents are recombined: one-point, two-point, uniform, blend:ALPHA or sbx:ETA
     crossover: Crossover => archipelago.strategy.variation.crossover,
-        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_sequences);
+        BREEDING.value("OPERATOR").for_problem(Kind::has_sequences);
     /// Probability that an offspring has two parents
     crossover_rate: f64 => archipelago.strategy.variation.crossover_rate,
-        of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
+        BREEDING.value("0..1"), in |_| 0.0..=1.0;
     /// How a value is changed: uniform, gaussian or polynomial:ETA
     mutation: Mutation => archipelago.strategy.variation.mutation,
-        of(GeneticAlgorithm).value("OPERATOR").for_problem(Kind::has_vectors);
+        MUTATION.value("OPERATOR").for_problem(Kind::has_vectors);
     /// Probability that a value of a gene is changed; of networks, that the weights of an offspring are
     point_rate: f64 => archipelago.strategy.variation.point_rate,
-        of(GeneticAlgorithm).value("0..1"), in |_| 0.0..=1.0;
+        MUTATION.value("0..1"), in |_| 0.0..=1.0;
     /// Scale of such a change, as a share of the value's range
     point_amount: f64 => archipelago.strategy.variation.point_amount,
-        of(GeneticAlgorithm).value("0..1").for_problem(Kind::has_numbers), in |_| 0.0..=1.0;
+        MUTATION.value("0..1").for_problem(Kind::has_numbers), in |_| 0.0..=1.0;
     /// Probability that an offspring loses a gene
     shrink_rate: f64 => archipelago.strategy.variation.shrink_rate,
-        of(GeneticAlgorithm).value("0..1").for_problem(Kind::has_genes), in |_| 0.0..=1.0;
+        MUTATION.value("0..1").for_problem(Kind::has_genes), in |_| 0.0..=1.0;
     /// Probability that an offspring gains a gene, which is a link of networks
     grow_rate: f64 => archipelago.strategy.variation.grow_rate,
-        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
+        MUTATION.value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
     /// Probability that an offspring repeats one of its limbs; of networks, that a new neuron splits a link
     duplicate_rate: f64 => archipelago.strategy.variation.duplicate_rate,
-        of(GeneticAlgorithm).value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
+        MUTATION.value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
     /// What changes the scale of mutation on the way: none, or one-fifth (the 1/5 success rule)
     adaptation: Adaptation => archipelago.strategy.adaptation,
-        of(GeneticAlgorithm).value("RULE").for_problem(Kind::has_vectors);
+        MUTATION.value("RULE").for_problem(Kind::has_vectors);
     /// Each island has crossover and mutation rates of its own
     heterogeneous: bool => archipelago.strategy.heterogeneous,
         of(GeneticAlgorithm).for_algorithm(Algorithm::has_islands);
 
     /// Who sends migrants to whom: ring, bidirectional-ring, full, torus, star, hypercube, random-regular:DEGREE or none
     topology: Topology => archipelago.topology,
-        of(Section::Migration).value("GRAPH").for_algorithm(Algorithm::is_genetic);
+        EXCHANGE.value("GRAPH");
     /// Generations between two exchanges of migrants
     migration_interval: u32 => archipelago.migration.interval,
-        of(Section::Migration).value("G"), in |_| 1.0..=1e9;
+        EXCHANGE.value("G"), in |_| 1.0..=1e9;
     /// Individuals that an island sends at each exchange
-    migrants: usize => archipelago.migration.migrants, of(Section::Migration).value("M");
+    migrants: usize => archipelago.migration.migrants, EXCHANGE.value("M");
     /// Exchanges by which immigrants come later, so that no island waits
     migration_lag: u32 => archipelago.migration.lag,
-        of(Section::Migration).value("L"), in |_| 0.0..=1e3;
+        EXCHANGE.value("L"), in |_| 0.0..=1e3;
     /// Who is sent: best, random or tournament:SIZE
     emigrants: Emigrants => archipelago.migration.emigrants,
-        of(Section::Migration).value("WHO").for_algorithm(Algorithm::is_genetic);
+        EXCHANGE.value("WHO");
     /// Whom an immigrant replaces: worst (if it is better), random (any but the best) or similar (the most similar, if
     /// it is better)
     replacement: Replacement => archipelago.migration.replacement,
-        of(Section::Migration).value("WHOM").for_algorithm(Algorithm::is_genetic);
+        EXCHANGE.value("WHOM").for_survival(|survival| !survival.has_cells());
     /// Whether islands wait for each other's migrants: sync, or async (each takes in what has arrived; the seed alone does
     /// not fix the result then, but what arrived is recorded and can be replayed)
     exchange: ExchangeMode => archipelago.migration.exchange,
-        of(Section::Migration).value("HOW").for_algorithm(Algorithm::is_genetic).not_in_experiments(
+        EXCHANGE.value("HOW").not_in_experiments(
             "runs of an experiment are in lockstep, where nobody is faster than another",
         );
 
@@ -147,4 +154,10 @@ settings! {
     threads: usize,
         of(Running).value("T").free().usually("all cores").not_in_experiments("say --threads"),
         in |_| 1.0..=THREADS_MAX as f64;
+}
+
+/// The most genes of a random genome. Where `max-genes` is out of its own range, that is said of it, and not of `genes`.
+fn genes_max(config: &Config) -> f64 {
+    let is_sound = (1..=GENES_MAX).contains(&config.max_genes);
+    if is_sound { config.max_genes as f64 } else { GENES_MAX as f64 }
 }

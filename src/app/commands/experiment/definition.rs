@@ -118,7 +118,13 @@ impl Definition {
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Self, String> {
         let read: Self = toml::from_str(text).map_err(|error| config::one_line(&error, text))?;
-        Ok(Self { base: config::flat(read.base)?, ..read })
+        let flat = |place: &str, table: Table| {
+            config::flat(table).map_err(|reason| format!("{place}: {reason}"))
+        };
+        let (base, grid) = (flat("[base]", read.base)?, flat("[grid]", read.grid)?);
+        let setting: Result<_, _> =
+            read.setting.into_iter().map(|own| flat("[[setting]]", own)).collect();
+        Ok(Self { base, grid, setting: setting?, ..read })
     }
 
     /// The file that says the same, of this version.
@@ -141,9 +147,11 @@ impl Definition {
         let seeds = read_seeds(&self.seeds)?;
         let named = self.named()?;
         let points = self.points(named.len() * seeds.len())?;
+        let own = every_pair(&named, &points);
+        let bases = self.bases(&own)?;
         let mut settings = Vec::new();
-        for (name, own) in every_pair(&named, &points) {
-            settings.push(self.setting(name, merged(&self.base, &own), seeds[0])?);
+        for ((name, own), base) in own.into_iter().zip(&bases) {
+            settings.push(self.setting(&name, merged(base, &own), seeds[0])?);
         }
         let varied: BTreeSet<_> = named.iter().flat_map(|(_, own)| own.keys()).collect();
         let varied = varied.into_iter().chain(self.grid.keys()).cloned().collect();
@@ -202,11 +210,29 @@ impl Definition {
         }
     }
 
-    fn setting(&self, name: String, own: Table, seed: u64) -> Result<Setting, String> {
-        let name = if name.is_empty() { "base".to_owned() } else { name };
-        let is_bounded = self.evaluations.is_none() || own.contains_key("generations");
-        let config = Config::of_table(own, Wish::default())
-            .map_err(|error| format!("setting {name}: {}", error.message()))?;
+    /// What each setting has of what is said for all of them: not what means nothing to it, such as elites to random
+    /// search, as long as it means something to another.
+    fn bases(&self, settings: &[(String, Table)]) -> Result<Vec<Table>, String> {
+        let unused = |(name, own): &(String, Table)| {
+            let config = read(shown_name(name), merged(&self.base, own))?;
+            let unused = config.unused().map_err(|failure| failure.message)?;
+            Ok(unused.into_iter().map(|unused| unused.name).collect())
+        };
+        let unused: Vec<BTreeSet<&str>> =
+            settings.iter().map(unused).collect::<Result<_, String>>()?;
+        let is_in_vain = |key: &str| unused.iter().all(|unused| unused.contains(key));
+        let base = |unused: &BTreeSet<&str>| {
+            let is_kept = |key: &str| !unused.contains(key) || is_in_vain(key);
+            let kept = self.base.iter().filter(|(key, _)| is_kept(key));
+            kept.map(|(key, value)| (key.clone(), value.clone())).collect()
+        };
+        Ok(unused.iter().map(base).collect())
+    }
+
+    fn setting(&self, name: &str, all: Table, seed: u64) -> Result<Setting, String> {
+        let name = shown_name(name).to_owned();
+        let is_bounded = self.evaluations.is_none() || all.contains_key("generations");
+        let config = read(&name, all)?;
         let generations = if is_bounded { config.generations } else { GENERATIONS_MAX };
         let setting = Setting { name, config: Config { generations, ..config }.settled() };
         let checked = setting.config(seed).check();
@@ -238,6 +264,16 @@ impl Plan {
         }
         Ok(())
     }
+}
+
+/// The only setting needs no name.
+fn shown_name(name: &str) -> &str {
+    if name.is_empty() { "base" } else { name }
+}
+
+fn read(name: &str, all: Table) -> Result<Config, String> {
+    Config::of_table(all, Wish::default())
+        .map_err(|error| format!("setting {name}: {}", error.message()))
 }
 
 /// Each of `under` with each of `over`, under both their names.

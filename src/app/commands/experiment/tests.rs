@@ -56,6 +56,41 @@ fn a_grid_is_every_combination_and_multiplies_named_settings() {
 }
 
 #[test]
+fn what_settings_have_in_common_need_not_mean_something_to_all_of_them() {
+    let base = "[base]\nelites = 4\n";
+    let searches = "[grid]\nalgorithm = [\"ga\", \"random\"]\n";
+    let plan_of_both = plan(&format!("{base}{searches}")).expect("it makes sense");
+    assert_eq!(plan_of_both.settings[0].config(1).elites, 4);
+    assert_eq!(plan_of_both.settings[1].config(1), {
+        let alone = plan("[base]\nalgorithm = \"random\"").expect("it makes sense");
+        alone.settings[0].config(1)
+    });
+    for (text, setting) in [
+        (format!("{searches}elites = [1, 4]"), "algorithm=random,elites=1"),
+        (format!("{base}algorithm = \"random\""), "base"),
+    ] {
+        let refusal = plan(&text).expect_err("it means nothing");
+        let said = format!("setting {setting}: elites means nothing to random: ");
+        assert!(refusal.starts_with(&said), "{refusal}");
+    }
+}
+
+#[test]
+fn settings_may_stand_in_sections() {
+    let flat =
+        "[base]\nelites = 4\n[grid]\nmigrants = [0, 2]\n[[setting]]\nname = \"a\"\ngenes = 2\n";
+    let in_sections = "[base.genetic-algorithm]\nelites = 4\n[grid.migration]\nmigrants = [0, 2]\n\
+                       [[setting]]\nname = \"a\"\n[setting.genetic-algorithm]\ngenes = 2\n";
+    assert_eq!(plan(in_sections), plan(flat));
+    let wrong = plan("[grid.migrations]\nmigrants = [0, 2]").expect_err("there is none");
+    assert_eq!(
+        wrong,
+        "[grid]: there is no section [migrations]: choose one of vectors, creatures, genetic-algorithm, migration, \
+         running"
+    );
+}
+
+#[test]
 fn seeds_are_a_number_a_list_or_a_range() {
     let seeds = |text: &str| plan(text).map(|plan| plan.seeds);
     assert_eq!(seeds(""), Ok((1..=10).collect()));

@@ -45,7 +45,7 @@ impl Studio {
             scales => scales,
         };
         terrain_args::find(&mut config, &args.terrain, None)?;
-        config.check()?;
+        config.check_values()?;
         let problem = config.locomotion();
         let usual = problem.trial();
         let trial = Trial { scored_s: args.seconds.unwrap_or(usual.scored_s), ..usual };

@@ -121,7 +121,7 @@ fn launched(text: &str, dir: &RunDir) -> Result<Config, Obstacle> {
     let mut config = Config::parse(text).map_err(|reason| damaged(&reason))?;
     terrains::read(&mut config.terrain, dir)
         .map_err(|failure| Obstacle { file: "terrain.csv", reason: failure.message })?;
-    config.check().map_err(|failure| damaged(&failure.message))?;
+    config.check_values().map_err(|failure| damaged(&failure.message))?;
     if !config.is_launched() {
         return Err(damaged("it names no seed or no launch, as that of every run does"));
     }

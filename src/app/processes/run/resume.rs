@@ -47,7 +47,7 @@ pub fn config(dir: &RunDir, wish: &SettingArgs) -> Result<Config, Failure> {
     require_version(own.version())?;
     wish.require_same_problem(&own)?;
     let config = wish.over(own.clone());
-    config.check()?;
+    config.check_values()?;
     let changes = differences(&own.settings(), &config.settings());
     if !changes.is_empty() {
         return Err(Failure::usage(format!(
