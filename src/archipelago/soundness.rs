@@ -11,7 +11,7 @@ pub enum Misfit {
     #[error("it is another island's")]
     Index,
     /// Its population is not of the size that the run has.
-    #[error("it has not as many individuals as a population has")]
+    #[error("its population has the wrong size")]
     Size,
     /// A genome is empty or too long.
     #[error("it has a genome that is empty or too long")]
@@ -20,13 +20,13 @@ pub enum Misfit {
     #[error("it has a gene that is not valid")]
     Gene,
     /// Someone's or their parent's birthplace does not exist, or did not by then.
-    #[error("it has an individual from nowhere")]
+    #[error("it has an individual that was born nowhere")]
     Lineage,
     /// Someone is better than the champion.
     #[error("its champion is not the best")]
     Champion,
     /// What it has learned cannot be.
-    #[error("it has learned what cannot be learned")]
+    #[error("what it has learned is impossible")]
     Memory,
     /// There are not as many evaluations as ended somehow.
     #[error("its evaluations do not add up")]

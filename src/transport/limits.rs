@@ -16,22 +16,22 @@ pub enum Rejection {
     #[error("it belongs to another run")]
     Run,
     /// There is no such island, or not in this place.
-    #[error("it names an island that it cannot be from")]
+    #[error("it names an island that cannot have sent it")]
     Island,
     /// There are more migrants than an outbox of this run can have.
     #[error("it has more migrants than an outbox can carry")]
     Count,
     /// A genome is empty or too long, or genomes and payload differ in length.
-    #[error("its genomes do not have the lengths that they may have")]
+    #[error("it has a genome that is empty or too long")]
     Length,
     /// A gene may not be used.
     #[error("it has a gene that is not valid")]
     Gene,
     /// A fitness or another number is not one.
-    #[error("it has a number that is not one")]
+    #[error("it has a value that is no number")]
     Number,
     /// Someone's birthplace does not exist.
-    #[error("it has an individual from nowhere")]
+    #[error("it has an individual that was born nowhere")]
     Lineage,
 }
 

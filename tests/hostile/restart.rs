@@ -136,8 +136,8 @@ fn a_state_that_cannot_be_of_the_run_is_not_believed_whatever_its_checksum_says(
     let unborn = Id { island: 0, generation: 4, index: 0 };
     type Forge<'a> = &'a dyn Fn(&mut Island<Gene>);
     let forgeries: [(Forge<'_>, &str); 10] = [
-        (&|it| it.population.clear(), "it has not as many individuals as a population has"),
-        (&|it| it.population.truncate(2), "it has not as many individuals as a population has"),
+        (&|it| it.population.clear(), "its population has the wrong size"),
+        (&|it| it.population.truncate(2), "its population has the wrong size"),
         (&|it| it.population[0].genome.clear(), "it has a genome that is empty or too long"),
         (
             &|it| it.champion.genome = vec![Gene([0.5; 17]); 4],
@@ -145,8 +145,11 @@ fn a_state_that_cannot_be_of_the_run_is_not_believed_whatever_its_checksum_says(
         ),
         (&|it| it.population[2].genome[0].0[16] = f64::NAN, "it has a gene that is not valid"),
         (&|it| it.champion.genome[0].0[0] = 1.0, "it has a gene that is not valid"),
-        (&|it| it.population[0].parents[1] = Some(nowhere), "it has an individual from nowhere"),
-        (&|it| it.champion.id = unborn, "it has an individual from nowhere"),
+        (
+            &|it| it.population[0].parents[1] = Some(nowhere),
+            "it has an individual that was born nowhere",
+        ),
+        (&|it| it.champion.id = unborn, "it has an individual that was born nowhere"),
         (&|it| it.population[1].fitness = 1e9.into(), "its champion is not the best"),
         (&|it| it.effort.reused = u64::MAX, "its evaluations do not add up"),
     ];

@@ -118,7 +118,7 @@ fn a_configuration_that_cannot_be_used_is_refused() {
     );
     let sentence = world.refusal("--config unknown.toml");
     let expected =
-        "cannot use unknown.toml: line 1: unknown field `popluation`, expected one of `islands`";
+        "cannot use unknown.toml: line 1: unknown setting popluation: see islands run --help";
     assert!(sentence.starts_with(expected), "{sentence}");
 }
 

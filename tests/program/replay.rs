@@ -111,11 +111,11 @@ fn a_replay_may_be_longer_than_the_trial_and_what_makes_no_sense_is_refused() {
         .map(|kind| recording.frames(&format!("/islands/0/champion/{kind}")).len());
     assert_eq!(frames.into_iter().max(), Some(frames_wanted));
     for (wish, reason) in [
-        ("run run/champion.csv", "a run is replayed alone"),
+        ("run run/champion.csv", "replay takes the folder of one run"),
         ("run/champion.csv --ancestry", "a genome alone has no ancestors"),
         ("run/champion.csv --seconds 0", "seconds must be from 0.1 to 3600, not 0"),
         ("run --ancestry --max-links 0", "max-links must be from 1"),
-        ("run --drop-column 18", "a run's genomes have no column too many"),
+        ("run --drop-column 18", "--drop-column is for files of genomes"),
         ("run --scale link-length=1", "only profile coursework has scales to change, not native"),
     ] {
         let said = world.refusal(&format!("replay {wish}"));

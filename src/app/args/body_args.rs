@@ -13,11 +13,10 @@ use std::path::PathBuf;
 /// How the files of changed course programs are read.
 #[derive(Debug, Clone, Default, Args)]
 pub struct ChangeArgs {
-    /// The scale that a parameter of profile coursework has instead of its own, such as link-length=1;
-    /// may be said for several ones
+    /// Changed scale of a parameter of profile coursework, such as link-length=1; may be repeated
     #[arg(long = "scale", value_name = "NAME=SCALE")]
     pub scales: Vec<Rescaling>,
-    /// A column, from 1, that lines with too many have and genes have not; may be said several times
+    /// Number of a column to leave out, from 1, where lines have more columns than a gene; may be repeated
     #[arg(long = "drop-column", value_name = "N")]
     pub drop_columns: Vec<usize>,
 }
@@ -58,7 +57,7 @@ impl TrialArgs {
 #[derive(Debug, Args)]
 #[command(
     after_help = "A URDF may be another program's, as long as it is made of boxes, cylinders, spheres and
-capsules on fixed, revolute or continuous joints; what of it does not count here is said.
+capsules on fixed, revolute or continuous joints. The command names what it ignores.
 
 Examples:
   islands inspect champion.csv                              link by link
@@ -84,9 +83,9 @@ pub struct InspectArgs {
 /// Taking in genomes of the course.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Every file is read; at the end it is said which were refused, and why. What is read is written to
---out as files that the course's program and all commands here read without further ado, its numbers
-brought to the course's own scales. Values of 1 and more become just under 1.
+    after_help = "The command reads every file, and says at the end which ones it refused, and why. With --out it writes
+the others as files that the course's program and all commands here can read, with the course's own
+scales. Values of 1 and more become just under 1.
 
 Exit codes: 0 all were read, 1 some were refused, 2 asked for something impossible.
 
@@ -106,7 +105,7 @@ pub struct ImportArgs {
     pub profile: Profile,
     #[command(flatten)]
     pub changes: ChangeArgs,
-    /// Folder for what could be read, new or empty
+    /// Folder for the files that could be read, new or empty
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Print the result as one JSON object, the last line of standard output
@@ -119,15 +118,15 @@ pub struct ImportArgs {
 #[command(after_help = "Formats:
   csv     the genome, for the course's program; what it cannot build is refused with the reason
   urdf    the body, for ROS, PyBullet, Gazebo and others; read back here with all its motors
-  mjcf    the body on a plane like ours, for MuJoCo, with a velocity actuator a motor; none on a terrain
-  stl     the body in rest pose, for printing, one closed surface a link; in millimetres
-  motion  how it moves in its trial, on the terrain if there is one, as CSV: time, link, position, rotation
+  mjcf    the body on a plane, for MuJoCo, with a velocity actuator for each motor; no terrain
+  stl     the body at rest, for printing, with a closed surface for each link; in millimetres
+  motion  how it moves in its trial, as CSV: time, link, position, rotation
 
 Exit codes: 0 done, 1 failed, 2 asked for something impossible.
 
 Examples:
   islands export runs/walk-seed7/champion.csv --format urdf --out walker.urdf
-  islands export champion.csv --format mjcf --out walker.xml && python -m mujoco.viewer --mjcf=walker.xml
+  islands export champion.csv --format mjcf --out walker.xml
   islands export champion.csv --format stl --size 0.1 --out walker.stl
   islands export mine.csv --profile coursework --scale link-length=1 --format csv --out elite.csv")]
 pub struct ExportArgs {
@@ -137,15 +136,15 @@ pub struct ExportArgs {
     /// What to write: csv, urdf, mjcf, stl or motion
     #[arg(long)]
     pub format: Format,
-    /// The file to write; one that is there is replaced
+    /// File to write; an existing one is replaced
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
     #[command(flatten)]
     pub trial: TrialArgs,
-    /// For stl: times its own size
+    /// For stl: factor by which the body is scaled
     #[arg(long, default_value_t = 1.0, value_name = "TIMES")]
     pub size: f64,
-    /// For stl: also every link by itself, standing, in files beside --out
+    /// For stl: also write each link, standing, to a file of its own beside --out
     #[arg(long)]
     pub parts: bool,
 }

@@ -65,15 +65,15 @@ pub enum Command {
     Experiment(ExperimentArgs),
     /// Score genomes, and bodies from URDF
     Evaluate(EvaluateArgs),
-    /// Show the body that a genome or a URDF describes
+    /// Show the body or the network that a file describes
     Inspect(InspectArgs),
     /// Film genomes, bodies from URDF, or the creatures of a run, for the Rerun viewer
     Replay(ReplayArgs),
-    /// Take in genomes of the course, whatever state their files are in
+    /// Read genome files of the course, also odd ones, and write them in one form
     Import(ImportArgs),
     /// Write a creature for other programs: as the course's CSV, URDF, MJCF, STL or motion
     Export(ExportArgs),
-    /// Record and serve a run, under way or over; `run` starts one by itself
+    /// Film a run, under way or over, and serve its live view; `run` starts a monitor by itself
     Monitor(MonitorArgs),
     /// Check that a run's folder holds what it claims, by simulating its champions again
     Verify(VerifyArgs),
@@ -97,7 +97,7 @@ pub struct RunArgs {
     pub changes: ChangeArgs,
     #[command(flatten, next_help_heading = "Terrain")]
     pub terrain: TerrainArgs,
-    /// A file that says the same as these flags, such as a run's run.toml; flags win over it
+    /// File of settings, such as a run's run.toml; flags win over it
     #[arg(long, value_name = "FILE.toml", help_heading = "Running")]
     pub config: Option<PathBuf>,
     /// Folder for the run's files, new or empty [default: runs/<task or problem>-seed<seed>]
@@ -111,7 +111,7 @@ pub struct RunArgs {
 #[derive(Debug, Args)]
 #[command(
     after_help = "The result is the one that the run would have had undisturbed. What would change it, such as
-another seed, is refused; a finished run with as many generations as it has prints its result again.
+another seed, is refused. A finished run that is not made longer prints its result again.
 
 Exit codes: 0 done, 1 failed, 2 there is no run, it is under way or cannot go on so, 130 interrupted.
 
@@ -132,7 +132,7 @@ pub struct ResumeArgs {
 /// What a run shows.
 #[derive(Debug, Args)]
 pub struct OutputArgs {
-    /// Record and serve nothing; every other file is written all the same
+    /// Start no monitor, which films the run and serves the live view; all other files are written
     #[arg(long, help_heading = "Running")]
     pub no_monitor: bool,
     #[command(flatten)]
@@ -155,15 +155,14 @@ impl OutputArgs {
 /// How a run is watched while it goes on.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct ViewArgs {
-    /// Who can watch while it goes on: live (whoever attaches a viewer), spawn (the same, and a viewer opens)
-    /// or off (nobody: it is only recorded)
+    /// Live view: live (viewers can connect), spawn (the same, and a viewer opens) or off (the run is only recorded)
     #[arg(long, value_name = "HOW", default_value_t, help_heading = "Running")]
     pub view: Watching,
-    /// Serve the live view on this port, or on one of the next if it is taken [default: 9876]
+    /// Port of the live view, or one of the next if it is taken [default: 9876]
     #[arg(long, value_name = "PORT", value_parser = clap::value_parser!(u16).range(1..), help_heading = "Running")]
     pub view_port: Option<u16>,
-    /// Serve the live view on this address of the machine. Who can reach it can watch, without a password,
-    /// and show something else to others who watch: on any but 127.0.0.1 that may be many
+    /// Address of the live view. Who can reach it can watch without a password, and change what others see: on any
+    /// address but 127.0.0.1 that may be many people
     #[arg(long, value_name = "IP", default_value_t = Ipv4Addr::LOCALHOST.into(), help_heading = "Running")]
     pub view_address: IpAddr,
 }
@@ -186,7 +185,7 @@ choice::one_of!("view", Watching);
 /// Scoring.
 #[derive(Debug, Args)]
 pub struct EvaluateArgs {
-    /// Files of genomes: a gene a line, of creatures 17 numbers from 0 to 1; of creatures also bodies
+    /// Files of genomes, with a gene on each line (of a creature 17 numbers from 0 to 1), or of bodies
     #[arg(required = true, value_name = "GENOME.csv|BODY.urdf")]
     pub genomes: Vec<PathBuf>,
     #[command(flatten)]
@@ -195,14 +194,14 @@ pub struct EvaluateArgs {
     pub changes: ChangeArgs,
     #[command(flatten)]
     pub terrain: TerrainArgs,
-    /// Try every creature in so many perturbations that no run selects on, in both engines, and print their mean,
-    /// spread and worst
+    /// Number of perturbations to try every creature in, none of which a run selects on; both engines try it, and the
+    /// command prints mean, spread and worst
     #[arg(long, value_name = "N")]
     pub trials: Option<u32>,
     /// Threads [default: all cores]
     #[arg(long, value_name = "K")]
     pub threads: Option<usize>,
-    /// Evaluate everything so many times, to measure speed
+    /// Number of times that everything is evaluated, to measure speed
     #[arg(long, default_value_t = 1, value_name = "R")]
     pub repeat: usize,
     /// Print the result as one JSON object, the last line of standard output
@@ -216,21 +215,21 @@ pub struct EvaluateArgs {
   islands replay champion.csv --view spawn          one creature, in a viewer
   islands replay a.csv b.csv c.urdf --out race.rrd  three of them race
   islands replay runs/walk-seed7                    a run's champions through the generations
-  islands replay runs/walk-seed7 --ancestry         the ancestors of its best, from generation 0 to the champion")]
+  islands replay runs/walk-seed7 --ancestry         the ancestors of its best creature")]
 pub struct ReplayArgs {
     /// Files of genomes or bodies, several of which race, or the folder of a run
     #[arg(required = true, value_name = "GENOME.csv|BODY.urdf|RUN_DIR")]
     pub what: Vec<PathBuf>,
-    /// Of a run, the ancestors of its best creature instead of its champions
+    /// Film the ancestors of a run's best creature instead of its champions
     #[arg(long)]
     pub ancestry: bool,
-    /// Of a run, so many creatures, picked evenly: the first, the last and some between
+    /// Number of creatures of a run to film, picked evenly from the first to the last
     #[arg(long, default_value_t = 12, value_name = "C", value_parser = clap::value_parser!(u32).range(2..=64))]
     pub clips: u32,
     /// Trial duration in seconds [default: the task's]
     #[arg(long, value_name = "S")]
     pub seconds: Option<f64>,
-    /// The recording to write [default: beside the file, or in the run's folder]
+    /// Recording to write [default: beside the file, or in the run's folder]
     #[arg(long, value_name = "FILE.rrd")]
     pub out: Option<PathBuf>,
     /// Whether a viewer opens: spawn or off
@@ -280,8 +279,8 @@ pub struct VerifyArgs {
     /// Folder of a run that is not under way
     #[arg(value_name = "RUN_DIR")]
     pub dir: PathBuf,
-    /// Simulate the newest populations and all migrants again too, not only the champions; and evolve a run of
-    /// --exchange async again from what its islands recorded, to the same digest
+    /// Simulate also the newest populations and all migrants again, and evolve a run of --exchange async again from
+    /// what its islands recorded, to the same digest
     #[arg(long)]
     pub thorough: bool,
     /// Threads [default: all cores]
@@ -295,7 +294,7 @@ pub struct VerifyArgs {
 /// Cleaning.
 #[derive(Debug, Args)]
 pub struct CleanArgs {
-    /// Only list it
+    /// Only list what would be removed
     #[arg(long)]
     pub dry_run: bool,
 }

@@ -12,19 +12,19 @@ use std::path::{Path, PathBuf};
 /// What creatures stand on.
 #[derive(Debug, Clone, Default, Args)]
 pub struct TerrainArgs {
-    /// What creatures stand on instead, walls around it: a greyscale PNG (a pixel a point, white is high, north at the
-    /// top), an OBJ mesh (z up, metres; its highest surface counts) or a run's terrain.csv. With any task
+    /// Terrain instead of the task's ground, with walls around it: a greyscale PNG (white is high, north is at the top),
+    /// an OBJ mesh (z is up, in metres; the highest surface counts) or a run's terrain.csv
     #[arg(long, value_name = "FILE")]
     pub terrain: Option<PathBuf>,
-    /// The terrain's size from west to east, in metres [default: 20 of a PNG, a mesh's own]
+    /// Size of the terrain from west to east, in metres [default: 20 for a PNG, a mesh's own]
     #[arg(long, value_name = "M", requires = "terrain")]
     pub terrain_size: Option<f64>,
-    /// How much higher its highest place is than its lowest, in metres; of a PNG, white than black [default: 5 of a
-    /// PNG, a mesh's own]
+    /// Height of the terrain from its lowest to its highest place, in metres; of a PNG, from black to white [default: 5
+    /// for a PNG, a mesh's own]
     #[arg(long, value_name = "M", requires = "terrain")]
     pub terrain_height: Option<f64>,
-    /// Where on it creatures begin, in metres east and north of its middle [default: seven tenths of the way to the
-    /// southern wall, or as in the terrain.csv]
+    /// Place where creatures begin, in metres east and north of the terrain's middle [default: seven tenths of the way
+    /// to the southern wall, or as in the terrain.csv]
     #[arg(long, value_name = "X,Y", requires = "terrain", allow_hyphen_values = true)]
     pub terrain_start: Option<Place>,
 }

@@ -50,7 +50,7 @@ pub enum TerrainFileError {
     #[error("line {0}: it is not as a run writes it")]
     Grid(usize),
     /// The grid has a size.
-    #[error("it says its size itself: leave out --terrain-size and --terrain-height")]
+    #[error("a run's terrain has a size: leave out --terrain-size and --terrain-height")]
     Sized,
     /// It is no terrain.
     #[error(transparent)]

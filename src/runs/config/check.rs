@@ -80,11 +80,11 @@ impl Config {
         };
         match self.algorithm {
             Algorithm::CmaEs if values == 0 => Err(Failure::usage(format!(
-                "cma-es learns from numbers, and the genes of {} are none",
+                "cma-es learns from numbers, and the genes of {} hold none: choose another --algorithm",
                 self.problem
             ))),
             Algorithm::CmaEs if values > cma::DIMENSIONS_MAX => Err(Failure::usage(format!(
-                "cma-es can learn {} numbers at most, and a genome has {values}",
+                "cma-es learns {} numbers at most, and a genome has {values}: choose smaller genomes",
                 cma::DIMENSIONS_MAX
             ))),
             _ => Ok(()),
@@ -103,7 +103,7 @@ impl Config {
         match self.problem {
             Kind::Network(test) if self.start.genes_max(test.sockets()) > self.max_genes => {
                 Err(Failure::usage(format!(
-                    "first networks of --start {} may have {} genes: --max-genes is {}",
+                    "--start {} makes networks of up to {} genes, more than --max-genes {}: allow more",
                     self.start,
                     self.start.genes_max(test.sockets()),
                     self.max_genes

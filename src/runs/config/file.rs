@@ -53,9 +53,9 @@ impl Config {
         let said = flat(said)?;
         for (key, value) in &said {
             let alone = Table::from_iter([(key.clone(), value.clone())]);
-            alone.try_into::<Self>().map_err(|error| match line_of(text, key) {
-                Some(line) => format!("line {line}: {}", one_line(&error, text)),
-                None => one_line(&error, text),
+            alone.try_into::<Self>().map_err(|error| {
+                let reason = complaint(key, &error);
+                line_of(text, key).map_or(reason.clone(), |line| format!("line {line}: {reason}"))
             })?;
         }
         Self::of_table(said, wish).map_err(|error| one_line(&error, text))
@@ -190,6 +190,15 @@ pub fn flat(said: Table) -> Result<Table, String> {
         }
     }
     Ok(flat)
+}
+
+/// What is wrong with a setting, or that there is none of this name: the list of all would be too long to be read.
+fn complaint(key: &str, error: &toml::de::Error) -> String {
+    let (key, reason) = (harmless(key), harmless(error.message()));
+    match reason.starts_with(&format!("unknown field `{key}`")) {
+        true => format!("unknown setting {key}: see islands run --help"),
+        false => reason,
+    }
 }
 
 /// The line on which a key stands, or its table begins, from 1.

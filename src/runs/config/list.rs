@@ -32,7 +32,8 @@ settings! {
         of(Run).value("SEED").usually("picked and printed").not_in_experiments("say seeds, above all tables");
     /// Problem
     problem: Kind = Kind::Creatures, of(Run).value("PROBLEM").one_of(Kind::list);
-    /// Search algorithm: ga, or to compare with it random, hill-climb, cma-es or panmictic (one large population)
+    /// Search algorithm: ga (a genetic algorithm on islands), panmictic (the same in one large population), hill-climb,
+    /// cma-es or random
     algorithm: Algorithm = Algorithm::Ga, of(Run).value("ALGORITHM");
     /// Generations after the random first one
     generations: u32 = 140, of(Run).value("G").free(), in |_| 0.0..=1e9;
@@ -42,7 +43,7 @@ settings! {
 
     /// Variables of a function, or bits of a genome
     dimensions: usize = 30, of(Vectors).value("N").for_problem(Kind::is_of_one_length);
-    /// Number of the shift and the rotation of a function
+    /// Instance of a function: a number that fixes its shift and its rotation
     instance: u64 = 1, of(Vectors).value("I").for_problem(Kind::is_function);
     /// Rotate the function, so that its variables depend on each other
     rotated: bool = false, of(Vectors).for_problem(Kind::is_function);
@@ -57,13 +58,14 @@ settings! {
     profile: Profile => locomotion.encoding.profile, of(Creatures).value("PROFILE").tries_bodies();
     /// Physics engine: featherstone (our own, ten times as fast) or rapier
     engine: Engine => locomotion.engine, of(Creatures).value("ENGINE").tries_bodies();
-    /// Perturbed trials of each genome, and four times as many of one that would be the best: friction, motor strength,
-    /// first direction, a push and the step differ, so that luck counts little; 0 for one trial without perturbation
+    /// Number of perturbed trials that score a genome; a would-be best has four times as many. Friction, motor strength,
+    /// first direction, a push and the step differ, so that luck counts little. 0 means one trial without perturbation
     robustness: u32 => locomotion.robustness.trials,
         of(Creatures).value("K").tries_bodies(), in |_| 0.0..=f64::from(Robustness::TRIALS_MAX);
     /// How the scores of these trials are combined: mean, median, quartile (the lower one) or worst
     robust_by: RobustBy => locomotion.robustness.by, of(Creatures).value("HOW").tries_bodies();
-    /// The other engine judges would-be champions and emigrants: where it finds less than 0.85 of a score, its own counts
+    /// Let the other engine judge would-be champions and emigrants: where it finds less than 0.85 of a score, its own
+    /// finding counts
     judged: bool => locomotion.judged, of(Creatures).tries_bodies();
     /// Largest number of links of a body; profile coursework has its own
     max_links: usize => locomotion.encoding.links_max,
@@ -95,7 +97,7 @@ settings! {
     /// How a value is changed: uniform, gaussian or polynomial:ETA
     mutation: Mutation => archipelago.strategy.variation.mutation,
         MUTATION.value("OPERATOR").for_problem(Kind::has_vectors);
-    /// Probability that a value of a gene is changed; of networks, that the weights of an offspring are
+    /// Probability that a value of a gene changes; for networks, that the weights of an offspring change
     point_rate: f64 => archipelago.strategy.variation.point_rate,
         MUTATION.value("0..1"), in |_| 0.0..=1.0;
     /// Scale of such a change, as a share of the value's range
@@ -104,16 +106,16 @@ settings! {
     /// Probability that an offspring loses a gene
     shrink_rate: f64 => archipelago.strategy.variation.shrink_rate,
         MUTATION.value("0..1").for_problem(Kind::has_genes), in |_| 0.0..=1.0;
-    /// Probability that an offspring gains a gene, which is a link of networks
+    /// Probability that an offspring gains a gene; for networks, a link
     grow_rate: f64 => archipelago.strategy.variation.grow_rate,
         MUTATION.value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
-    /// Probability that an offspring repeats one of its limbs; of networks, that a new neuron splits a link
+    /// Probability that an offspring repeats one of its limbs; for networks, that a new neuron splits a link
     duplicate_rate: f64 => archipelago.strategy.variation.duplicate_rate,
         MUTATION.value("0..1").for_problem(Kind::is_of_any_length), in |_| 0.0..=1.0;
-    /// What changes the scale of mutation on the way: none, or one-fifth (the 1/5 success rule)
+    /// Rule that adapts the scale of mutation during a run: none, or one-fifth (the 1/5 success rule)
     adaptation: Adaptation => archipelago.strategy.adaptation,
         MUTATION.value("RULE").for_problem(Kind::has_vectors);
-    /// Each island has crossover and mutation rates of its own
+    /// Give each island crossover and mutation rates of its own
     heterogeneous: bool => archipelago.strategy.heterogeneous,
         of(GeneticAlgorithm).for_algorithm(Algorithm::has_islands);
 
@@ -125,7 +127,7 @@ settings! {
         EXCHANGE.value("G"), in |_| 1.0..=1e9;
     /// Individuals that an island sends at each exchange
     migrants: usize => archipelago.migration.migrants, EXCHANGE.value("M");
-    /// Exchanges by which immigrants come later, so that no island waits
+    /// Number of exchanges by which migrants arrive later, so that no island waits
     migration_lag: u32 => archipelago.migration.lag,
         EXCHANGE.value("L"), in |_| 0.0..=1e3;
     /// Who is sent: best, random or tournament:SIZE
@@ -135,8 +137,8 @@ settings! {
     /// it is better)
     replacement: Replacement => archipelago.migration.replacement,
         EXCHANGE.value("WHOM").for_survival(|survival| !survival.has_cells());
-    /// Whether islands wait for each other's migrants: sync, or async (each takes in what has arrived; the seed alone does
-    /// not fix the result then, but what arrived is recorded and can be replayed)
+    /// Whether islands wait for each other's migrants: sync (they wait) or async (each takes in what has arrived; the seed
+    /// alone does not fix the result then, but the seed and a record of what arrived do)
     exchange: ExchangeMode => archipelago.migration.exchange,
         EXCHANGE.value("HOW").not_in_experiments(
             "runs of an experiment are in lockstep, where nobody is faster than another",
@@ -146,7 +148,7 @@ settings! {
     checkpoint_interval: u32 = 1,
         of(Running).value("G").free().not_in_experiments("runs of an experiment are kept once they have finished"),
         in |_| 1.0..=1e9;
-    /// Generations between two clips of an island's champion in the film: fewer make it longer and larger
+    /// Generations between two clips of an island's champion; a smaller number makes the film longer and larger
     clip_every: u32,
         of(Running).value("G").free().usually("a twelfth of all").not_in_experiments("nothing is filmed"),
         in |_| 1.0..=1e9;

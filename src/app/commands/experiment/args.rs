@@ -7,34 +7,36 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "The file says what is compared:
 
-  seeds = 10                  # 1 to 10; or a list such as [3, 5, 8], or \"11-20\"
-  evaluations = 10000         # a run ends with the first generation by which all islands together have so many
-  target = 2.5                # a run is a success if its best fitness gets so far
+  seeds = 10               # 1 to 10; or a list such as [3, 5, 8], or \"11-20\"
+  evaluations = 10000      # a run ends when all its islands together have so many
+  target = 2.5             # a run is a success if its best fitness gets so far
 
-  [base]                      # what all have in common: the settings of a run.toml
+  [base]                   # what all settings have in common: the settings of a run.toml
   task = \"walk\"
   population = 24
 
-  [grid]                      # every combination is a setting, such as elites=2,selection=rank
+  [grid]                   # every combination is a setting, such as elites=2,selection=rank
   elites = [1, 2]
   selection = [\"tournament:3\", \"rank\"]
 
-  [[setting]]                 # or, beside or instead of a grid, settings with a name
+  [[setting]]              # beside a grid or instead of one: settings with a name
   name = \"panmictic\"
   islands = 1
   population = 96
 
-With both, every named setting is taken at every point of the grid. Without evaluations, a run ends after its
-generations; with both, with what comes first. Evaluations are counted the same way for all: what was scored really,
-not what was known already.
+With a grid and named settings, every named setting is run at every point of the grid. A run ends
+with the first generation by which it has its evaluations, or after its generations. Only
+evaluations that were really run are counted.
 
-Every run is the one that islands run would make with the same settings, seed and generations, and has its digest. Runs
-that have finished are kept: the same command goes on after Ctrl-C, and after a change of the file runs only what is
-missing. DIR gets runs.csv and curves.csv (a row a run, and a row a run and generation), summary.csv (quartiles,
-successes), comparisons.csv (Mann-Whitney U, p, p after Holm, effect size A12), and for people summary.md and
-convergence.svg.
+Every run is the one that `islands run` makes of the same settings, seed and generations, and has
+its digest. Finished runs are kept: the same command goes on after Ctrl-C, and after a change of
+the file it runs only what is missing.
 
-Exit codes: 0 done, 1 failed, 2 the definition makes no sense, 130 interrupted.
+The folder gets runs.csv (a row for each run), curves.csv (a row for each run and generation),
+summary.csv (quartiles, successes), comparisons.csv (Mann-Whitney U, p, p after Holm, effect size
+A12), and for people summary.md and convergence.svg.
+
+Exit codes: 0 done, 1 failed, 2 the file makes no sense, 130 interrupted.
 
 Examples:
   islands experiment elites.toml                   into experiments/elites

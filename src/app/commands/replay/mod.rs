@@ -28,12 +28,14 @@ pub fn run(args: &ReplayArgs) -> Result<(), Failure> {
     }
     let out = match &args.what[..] {
         [dir] if dir.is_dir() && !args.changes.drop_columns.is_empty() => {
-            let wrong = "a run's genomes have no column too many: leave out --drop-column";
+            let wrong = "--drop-column is for files of genomes, and this is a run: leave it out";
             return Err(Failure::usage(wrong));
         }
         [dir] if dir.is_dir() => line::film(args, dir)?,
         genomes if genomes.iter().any(|path| path.is_dir()) => {
-            return Err(Failure::usage("a run is replayed alone: name one folder, or genomes"));
+            return Err(Failure::usage(
+                "replay takes the folder of one run, or files of genomes: name either",
+            ));
         }
         _ if args.ancestry => {
             let wrong = "a genome alone has no ancestors: name the folder of its run";
