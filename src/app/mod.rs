@@ -1,18 +1,18 @@
 //! The program: one executable that is launcher, island and monitor.
 //!
 //! `args` is what can be said. `commands` has a file or a folder for each verb, `processes` has those that make up a
-//! run. Both use the rest: `genomes` reads those that are named, `pedigree` puts ancestries into words, `viewer` opens a
+//! run. Both use the rest: `genomes` reads those that are named, `ancestry_text` puts ancestries into words, `viewer` opens a
 //! viewer, `console` prints and reads the clock, `table` lays out. What a run is, [`crate::runs`] knows.
 //!
 //! Architecture invariant: this alone imports clap, prints, and reads a clock; no reading of the clock decides
 //! a result.
 
+#[cfg(feature = "view")]
+mod ancestry_text;
 mod args;
 mod commands;
 mod console;
 mod genomes;
-#[cfg(feature = "view")]
-mod pedigree;
 mod processes;
 mod table;
 #[cfg(feature = "view")]

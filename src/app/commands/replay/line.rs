@@ -1,9 +1,9 @@
 //! The creatures of a run, one after another.
 
 use super::film::{Studio, recorder};
+use crate::app::ancestry_text::{self, AncestryText};
 use crate::app::args::cli::ReplayArgs;
 use crate::app::console::{print, say};
-use crate::app::pedigree::{self, Herald};
 use crate::archipelago::{Birth, Births, Champion, Descent, Lineage};
 use crate::creature::Gene;
 use crate::evolution::{Id, Individual};
@@ -34,13 +34,13 @@ pub fn film(args: &ReplayArgs, dir: &Path) -> Result<PathBuf, Failure> {
     let lineage = lineage(&dir, &config)?;
     let (name, line) = match args.ancestry {
         true => ("ancestry.rrd", ancestors(&dir, &config, &lineage, &best, most)?),
-        false => ("champions.rrd", pedigree::selection(&champions, most)),
+        false => ("champions.rrd", ancestry_text::selection(&champions, most)),
     };
     let out = args.out.clone().unwrap_or_else(|| dir.path().join(name));
     let is_as_scored = args.seconds.is_none() && studio.problem == problem;
-    let herald = Herald::of(&config, problem);
-    let family = herald.family(&lineage, best.id);
-    Reel { studio, line, herald, family, is_as_scored }.record(args, &dir, &out)?;
+    let ancestry_text = AncestryText::of(&config, problem);
+    let family = ancestry_text.family(&lineage, best.id);
+    Reel { studio, line, ancestry_text, family, is_as_scored }.record(args, &dir, &out)?;
     Ok(out)
 }
 
@@ -57,7 +57,7 @@ fn require_creatures(config: &Config) -> Result<(), Failure> {
 struct Reel {
     studio: Studio,
     line: Vec<Individual<Gene>>,
-    herald: Herald<Locomotion>,
+    ancestry_text: AncestryText<Locomotion>,
     family: Family,
     /// Whether they are tried as they were in the run.
     is_as_scored: bool,
@@ -80,7 +80,7 @@ impl Reel {
                     one.id, one.fitness, shot.evaluation.fitness
                 ));
             }
-            let origin = self.herald.origin(one.id, one.parents, island);
+            let origin = self.ancestry_text.origin(one.id, one.parents, island);
             let name = format!("generation {generation}, island {island}, {origin}");
             print(&self.studio.row(&shot, &name));
             let score = self.studio.problem.short(shot.evaluation.fitness);
@@ -169,7 +169,7 @@ fn ancestors(
             "the ancestors of the best creature cannot be bred again: {reason}"
         ))
     };
-    let line = pedigree::selection(&lineage.line(best.id), most);
+    let line = ancestry_text::selection(&lineage.line(best.id), most);
     let problem = config.locomotion();
     let founders = seeds::of_run(dir, config, &problem)?;
     let genomes = lineage.genomes(&line, &problem, &founders, &config.archipelago());

@@ -1,7 +1,7 @@
 //! When whose family is shown.
 
 use super::logs::BirthRecords;
-use crate::app::pedigree::Herald;
+use crate::app::ancestry_text::AncestryText;
 use crate::archipelago::{Champion, Report};
 use crate::evolution::{Fitness, Id};
 use crate::runs::subject::Subject;
@@ -10,7 +10,7 @@ use crate::view::{Family, Pace};
 /// Shows, whenever a slot of the film opens, the family of the best champion that there is in its generation, once
 /// all islands have come so far: whoever films, the families are the same.
 pub struct Ancestry<P> {
-    herald: Herald<P>,
+    ancestry_text: AncestryText<P>,
     pace: Pace,
     births: BirthRecords,
     /// The champions of each island: generation, who, and how good.
@@ -24,9 +24,14 @@ pub struct Ancestry<P> {
 
 impl<P: Subject> Ancestry<P> {
     /// Knows nobody.
-    pub fn new(herald: Herald<P>, births: BirthRecords, islands: u32, pace: Pace) -> Self {
+    pub fn new(
+        ancestry_text: AncestryText<P>,
+        births: BirthRecords,
+        islands: u32,
+        pace: Pace,
+    ) -> Self {
         Self {
-            herald,
+            ancestry_text,
             pace,
             births,
             champions: vec![Vec::new(); islands as usize],
@@ -63,7 +68,7 @@ impl<P: Subject> Ancestry<P> {
             let best = self.best(generation).filter(|&best| Some(best) != self.shown);
             if let (Some(id), true) = (best, slot < u32::MAX) {
                 self.shown = Some(id);
-                let family = self.herald.family(&self.births, id);
+                let family = self.ancestry_text.family(&self.births, id);
                 return Some((start_s, generation, family));
             }
             if is_last || slot == u32::MAX {

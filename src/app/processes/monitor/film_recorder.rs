@@ -3,8 +3,8 @@
 use super::ancestry::Ancestry;
 use super::logs::{BirthRecords, Sighting};
 use super::news::News;
+use crate::app::ancestry_text::{self, AncestryText};
 use crate::app::console::say;
-use crate::app::pedigree::{self, Herald};
 use crate::archipelago::{Champion, ExchangeMode};
 use crate::runs::Failure;
 use crate::runs::config::Config;
@@ -19,7 +19,7 @@ use std::path::Path;
 /// little, and a film that is made anew must soon be where the run is.
 pub struct FilmRecorder<P: Subject> {
     problem: P,
-    herald: Herald<P>,
+    ancestry_text: AncestryText<P>,
     recorder: Recorder,
     /// Each island's newest champion, if it was not filmed.
     unfilmed: Vec<Option<Champion<P::Gene>>>,
@@ -57,16 +57,26 @@ impl<P: Subject> FilmRecorder<P> {
             result => result?,
         };
         let islands = config.islands;
-        let herald = Herald::of(config, problem.clone());
+        let ancestry_text = AncestryText::of(config, problem.clone());
         let births = BirthRecords::of(dir, islands);
-        let ancestry = Ancestry::new(herald.clone(), births, islands, recorder.pace());
+        let ancestry = Ancestry::new(ancestry_text.clone(), births, islands, recorder.pace());
         let unfilmed = (0..islands).map(|_| None).collect();
         let news = (0..islands).map(|_| News::none()).collect();
         let graph = config.archipelago().graph();
         let sources = (0..islands).map(|island| graph.in_neighbours(island).to_vec()).collect();
         let among = if config.exchange == ExchangeMode::Async { "some of " } else { "" };
         let has_shown = false;
-        Ok(Self { problem, herald, recorder, unfilmed, news, ancestry, sources, among, has_shown })
+        Ok(Self {
+            problem,
+            ancestry_text,
+            recorder,
+            unfilmed,
+            news,
+            ancestry,
+            sources,
+            among,
+            has_shown,
+        })
     }
 
     /// The problem that is solved.
@@ -195,7 +205,7 @@ impl<P: Subject> FilmRecorder<P> {
         let score = self.score(champion);
         let remark = self.problem.remark(&individual.genome);
         let remark = remark.map_or_else(String::new, |remark| format!(", {remark}"));
-        let origin = self.herald.origin(individual.id, individual.parents, island);
+        let origin = self.ancestry_text.origin(individual.id, individual.parents, island);
         format!("island {island}: new champion, {score}{remark}, {origin}")
     }
 
@@ -214,7 +224,7 @@ impl<P: Subject> FilmRecorder<P> {
     /// reported with, bit for bit: what is seen is what was scored.
     fn film(&mut self, island: u32) -> Result<(), Failure> {
         let Some(champion) = self.unfilmed[island as usize].take() else { return Ok(()) };
-        let score = pedigree::standing(&self.problem, &champion);
+        let score = ancestry_text::standing(&self.problem, &champion);
         let short = self.problem.short(champion.individual.fitness);
         let Champion { generation, individual, .. } = champion;
         let Some(shot) = self.problem.shoot(&individual.genome) else { return Ok(()) };
@@ -228,7 +238,7 @@ impl<P: Subject> FilmRecorder<P> {
             say(&news);
             self.recorder.event(Some(island), generation, &news)?;
         }
-        let origin = self.herald.origin(individual.id, individual.parents, island);
+        let origin = self.ancestry_text.origin(individual.id, individual.parents, island);
         Ok(self.recorder.champion(&Clip {
             lane: island,
             hue: island,

@@ -12,14 +12,14 @@ const LINE_MAX: usize = 14;
 
 /// Says who the individuals of a run are.
 #[derive(Debug, Clone)]
-pub struct Herald<P> {
+pub struct AncestryText<P> {
     problem: P,
     /// So many of the first of each island were not random.
     founders: usize,
 }
 
-impl<P: Subject> Herald<P> {
-    /// The herald of a run.
+impl<P: Subject> AncestryText<P> {
+    /// The texts of a run.
     pub fn of(config: &Config, problem: P) -> Self {
         let founders = config.seed_genomes.as_ref().map_or(0, |it| it.count);
         Self { problem, founders }
@@ -121,7 +121,7 @@ mod tests {
         let births = vec![birth(crossed, 2.0)];
         lineage.push(1, Births { generation: 1, amount_scale: 1.0, births });
         let config = Config::default();
-        let family = Herald::of(&config, config.locomotion()).family(&lineage, id(1, 1, 0));
+        let family = AncestryText::of(&config, config.locomotion()).family(&lineage, id(1, 1, 0));
         let labels: Vec<_> = family.line.iter().map(|it| it.member.label.as_str()).collect();
         let expected =
             ["gen 0 · island 0 · 0.50 m · random", "gen 1 · island 1 · 2.00 m · crossed"];
