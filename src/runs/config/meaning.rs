@@ -80,7 +80,7 @@ mod tests {
     use crate::runs::subject::Subject;
 
     const SPHERE: &str =
-        "problem = \"sphere\"\ndimensions = 3\nislands = 3\npopulation = 6\ngenerations = 16";
+        "problem = \"sphere\"\ndimensions = 3\nislands = 3\npopulation = 6\ngenerations = 40";
     const WALK: &str = "islands = 1\npopulation = 3\ngenerations = 1\nrobustness = 0\njudged = false\nmax-links = 3";
 
     /// What each setting of the search may be besides its default, and a run that it may decide.
@@ -101,7 +101,7 @@ mod tests {
         ("heterogeneous", "true", SPHERE),
         ("topology", "full", SPHERE),
         ("migration-interval", "2", SPHERE),
-        ("migrants", "1", SPHERE),
+        ("migrants", "0", SPHERE),
         ("migration-lag", "0", SPHERE),
         ("emigrants", "random", SPHERE),
         ("replacement", "random", SPHERE),
