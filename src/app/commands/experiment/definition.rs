@@ -233,10 +233,12 @@ impl Definition {
         let name = shown_name(name).to_owned();
         let is_bounded = self.evaluations.is_none() || all.contains_key("generations");
         let config = read(&name, all)?;
+        let refused = |failure: Failure| format!("setting {name}: {}", failure.message);
+        config.check().map_err(refused)?;
         let generations = if is_bounded { config.generations } else { GENERATIONS_MAX };
-        let setting = Setting { name, config: Config { generations, ..config }.settled() };
-        let checked = setting.config(seed).check();
-        checked.map_err(|failure| format!("setting {}: {}", setting.name, failure.message))?;
+        let setting =
+            Setting { name: name.clone(), config: Config { generations, ..config }.settled() };
+        setting.config(seed).check().map_err(refused)?;
         Ok(setting)
     }
 }
