@@ -14,6 +14,7 @@ use crate::networks::gene::Part;
 use crate::networks::marking::{Marking, is_hidden};
 use crate::networks::{Function, Gene, Genome, Link, Neuron, Sockets};
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 /// The largest file, in bytes; a genome has a thousand genes at most.
@@ -177,12 +178,14 @@ fn part(row: &Row, names: &Names<'_>) -> Result<Part, String> {
 pub fn dot(rows: &[Row]) -> String {
     let mut text =
         "digraph network {\n  rankdir=LR;\n  node [shape=circle, fontname=sans];\n".to_owned();
-    let is_neuron = |name: &str| rows.iter().any(|row| row.part == "neuron" && row.from == name);
     let links = || rows.iter().filter(|row| row.part == "link");
+    let neurons = rows.iter().filter(|row| row.part == "neuron").map(|row| row.from.as_str());
+    let mut placed: BTreeSet<&str> = neurons.collect();
+    let targets: BTreeSet<&str> = links().map(|row| row.to.as_str()).collect();
     let mut ends: Vec<(&str, &str)> = Vec::new();
     for (name, rank) in links().flat_map(|row| [(&row.from, "source"), (&row.to, "sink")]) {
-        let is_target = rank == "source" && links().any(|row| row.to == *name);
-        if !is_neuron(name) && !is_target && !ends.iter().any(|(known, _)| known == name) {
+        let is_target = rank == "source" && targets.contains(name.as_str());
+        if !is_target && placed.insert(name) {
             ends.push((name, rank));
         }
     }

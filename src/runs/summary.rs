@@ -2,7 +2,7 @@
 
 use super::config::Config;
 use super::failure::Failure;
-use super::kept::kept;
+use super::kept::Candidates;
 use super::kind::Kind;
 use super::map_output;
 use super::reports::Reports;
@@ -12,7 +12,7 @@ use crate::evolution::generation::Effort;
 use crate::evolution::{Fitness, Gene, Individual};
 use crate::formats::metrics;
 use crate::problems::Validation;
-use crate::store::{RecordLog, RunDir, StoreError, checkpoint, file};
+use crate::store::{RunDir, StoreError, Tail, checkpoint, file};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -92,7 +92,7 @@ pub fn finished<P: Subject>(dir: &RunDir, config: &Config, problem: &P) -> Optio
     let islands = final_islands::<P::Gene>(dir, config).ok()?;
     let is_sound = summary.generations == config.generations
         && summary.digest == Digest::of(&islands).to_string();
-    let has_champion = all(&champions::<P::Gene>(dir, config).ok()?).next().is_some();
+    let has_champion = !candidates::<P::Gene>(dir, config).ok()?.is_empty();
     (is_sound && has_champion).then(|| Summary {
         best: problem.show(Fitness::of_saturated(summary.best_fitness)),
         // The folder may have been moved.
@@ -116,12 +116,11 @@ pub fn gather<P: Subject>(
 ) -> Result<Summary, Failure> {
     let islands = final_islands(dir, config)?;
     let wall_seconds = write_metrics(dir, config)?;
-    let champions = champions(dir, config)?;
-    let best = best(problem, &champions);
-    let best = best.ok_or_else(|| Failure::failed("no island has a champion"))?;
-    write_champion(dir, problem, &best.1.individual)?;
+    let best = candidates(dir, config)?.kept(problem);
+    let (best_island, best) = best.ok_or_else(|| Failure::failed("no island has a champion"))?;
+    write_champion(dir, problem, &best)?;
     map_output::write(dir, config, problem, &islands)?;
-    let summary = summarise(dir, config, problem, &islands, best, wall_seconds);
+    let summary = summarise(dir, config, problem, &islands, (best_island, &best), wall_seconds);
     let summary = Summary { awaits_film, ..summary };
     write(dir, &summary)?;
     Ok(summary)
@@ -143,7 +142,7 @@ pub fn with_film(dir: &RunDir, summary: Summary) -> Result<Summary, Failure> {
 
 /// The film, if there is one.
 fn recording(dir: &RunDir) -> Option<PathBuf> {
-    Some(dir.recording()).filter(|path| path.exists())
+    Some(dir.recording()).filter(|path| path.is_file())
 }
 
 fn write(dir: &RunDir, summary: &Summary) -> Result<(), StoreError> {
@@ -156,19 +155,19 @@ pub fn summarise<P: Subject>(
     config: &Config,
     problem: &P,
     islands: &[Island<P::Gene>],
-    best: (u32, &Champion<P::Gene>),
+    best: (u32, &Individual<P::Gene>),
     wall_seconds: f64,
 ) -> Summary {
     let (best_island, best) = best;
     let is_walker = config.problem == Kind::Creatures;
-    let validation = problem.fresh(&best.individual.genome, None);
+    let validation = problem.fresh(&best.genome, None);
     let effort = islands.iter().fold(Effort::default(), |sum, island| sum.and(island.effort));
     Summary {
         digest: Digest::of(islands).to_string(),
-        best_fitness: best.individual.fitness.saturated(),
+        best_fitness: best.fitness.saturated(),
         validated: lowest_mean(&validation),
         validation,
-        best: problem.show(best.individual.fitness),
+        best: problem.show(best.fitness),
         best_genome: dir.champion_genome(),
         best_island,
         unit: problem.unit().to_owned(),
@@ -204,27 +203,21 @@ pub fn write_metrics(dir: &RunDir, config: &Config) -> Result<f64, StoreError> {
     Ok(reports.seconds())
 }
 
-/// The champion that a run keeps, and its island, of all that each island ever had.
-pub fn best<'a, P: Subject>(
-    problem: &P,
-    champions: &'a [Vec<Champion<P::Gene>>],
-) -> Option<(u32, &'a Champion<P::Gene>)> {
-    kept(problem, all(champions).map(|(island, one)| ((island, one), &one.individual)))
-}
-
-fn all<G>(champions: &[Vec<Champion<G>>]) -> impl Iterator<Item = (u32, &Champion<G>)> {
-    let islands = (0..).zip(champions);
-    islands.flat_map(|(island, those)| those.iter().map(move |one| (island, one)))
-}
-
 /// The lower of the engines' means, if there are any.
 pub fn lowest_mean(validation: &[Validation]) -> Option<f64> {
     validation.iter().map(|one| one.mean).reduce(f64::min)
 }
 
-/// The champions that each island has had so far.
-fn champions<G: Gene>(dir: &RunDir, config: &Config) -> Result<Vec<Vec<Champion<G>>>, StoreError> {
-    (0..config.islands).map(|island| Ok(RecordLog::read(&dir.champions(island))?.records)).collect()
+/// Who of all champions that the islands have had so far may be kept.
+fn candidates<G: Gene>(dir: &RunDir, config: &Config) -> Result<Candidates<G>, StoreError> {
+    let mut candidates = Candidates::none();
+    for island in 0..config.islands {
+        let mut champions = Tail::<Champion<G>>::of(dir.champions(island));
+        while let Some(champion) = champions.next_record()? {
+            candidates.see(island, &champion.individual);
+        }
+    }
+    Ok(candidates)
 }
 
 fn final_islands<G: Gene>(dir: &RunDir, config: &Config) -> Result<Vec<Island<G>>, StoreError> {
@@ -265,9 +258,7 @@ impl BestOnDisk {
     /// # Errors
     /// If they cannot be read.
     pub fn of<G: Gene>(dir: &RunDir, config: &Config) -> Result<Self, Failure> {
-        let champions = champions::<G>(dir, config)?;
-        let scores = all(&champions).map(|(_, champion)| champion.individual.fitness);
-        Ok(Self { best: scores.max().unwrap_or(Fitness::WORST) })
+        Ok(Self { best: candidates::<G>(dir, config)?.highest() })
     }
 
     /// Writes `champion` if it is better than all before it.

@@ -33,11 +33,9 @@ impl<T: Serialize + DeserializeOwned> RecordLog<T> {
     /// # Errors
     /// If the file cannot be opened, locked or read, or is no regular file.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
-        let is_new = !path.exists();
         let file = file::open_to_write(path)?;
-        if is_new {
-            atomic::sync_name(path)?;
-        }
+        // Also that of a file which is there: who made it may have been killed before it did this.
+        atomic::sync_name(path)?;
         file.lock().map_err(StoreError::io("lock", path))?;
         let ends = scan(&file, |_| ()).map_err(StoreError::io("read", path))?.ends;
         let mut log = Self { path: path.to_owned(), file, ends, records: PhantomData };

@@ -111,6 +111,14 @@ impl RunDir {
         &self.0
     }
 
+    /// Whether a run is in the folder: whether there is a configuration.
+    ///
+    /// # Errors
+    /// If the system does not let that be known.
+    pub fn holds_run(&self) -> Result<bool, StoreError> {
+        self.config().try_exists().map_err(StoreError::io("look for", &self.config()))
+    }
+
     /// The configuration.
     pub fn config(&self) -> PathBuf {
         self.0.join("run.toml")
@@ -283,12 +291,13 @@ pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
     Ok(())
 }
 
-/// Makes a folder and those that it lies in, and makes the names of all that are new durable.
+/// Makes a folder and those that it lies in, and makes its name durable, and those of all that are new. Its own also where
+/// it is there: who made it may have been killed before doing that.
 fn make_durably(folder: &Path) -> Result<(), StoreError> {
     let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
-    let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
+    let missing: Vec<&Path> = folder.ancestors().skip(1).take_while(is_missing).collect();
     private().create(folder).map_err(StoreError::io("make the folder", folder))?;
-    missing.into_iter().rev().try_for_each(atomic::sync_name)
+    missing.into_iter().rev().chain([folder]).try_for_each(atomic::sync_name)
 }
 
 fn is_link(path: &Path) -> bool {

@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use std::fs::File;
 use std::io::ErrorKind;
 use std::marker::PhantomData;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Reads a log from its beginning while another process appends to it.
 #[derive(Debug)]
@@ -21,6 +21,11 @@ impl<T: DeserializeOwned> Tail<T> {
     /// A reader of the log at `path`, which need not exist yet.
     pub fn of(path: impl Into<PathBuf>) -> Self {
         Self { path: path.into(), file: None, start: 0, records: PhantomData }
+    }
+
+    /// Where the log is.
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// The next whole record, if it is there by now.

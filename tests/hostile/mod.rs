@@ -10,6 +10,7 @@ pub mod memory;
 pub mod pieces;
 mod restart;
 mod seeds;
+mod time;
 mod wire;
 
 use rand::SeedableRng;

@@ -10,7 +10,7 @@ use crate::formats::genome_csv;
 use crate::runs::{Failure, genome_files, seeds};
 use rayon::prelude::*;
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -118,11 +118,16 @@ fn make_folder(folder: &Path) -> Result<(), Failure> {
 /// What each file is called in the folder: its own name, or with a number if that is taken.
 fn names(files: &[PathBuf], folder: Option<&Path>) -> Vec<Option<PathBuf>> {
     let mut taken = BTreeSet::new();
+    // The last number that a name was given: there may be a million of one name.
+    let mut numbers: BTreeMap<String, usize> = BTreeMap::new();
     let name = |file: &PathBuf| {
         let folder = folder?;
         let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let numbered = (2..).map(|i| format!("{stem}-{i}.csv"));
-        let mut names = std::iter::once(format!("{stem}.csv")).chain(numbered);
+        let number = numbers.entry(stem.clone()).or_default();
+        let mut names = std::iter::repeat_with(|| {
+            *number += 1;
+            if *number == 1 { format!("{stem}.csv") } else { format!("{stem}-{number}.csv") }
+        });
         let free = names.find(|name| taken.insert(name.clone()));
         Some(folder.join(free.expect("there is always a next number")))
     };

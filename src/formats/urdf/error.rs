@@ -72,6 +72,12 @@ pub enum UrdfError {
         "link {0:?} has no <collision> or <visual> that it could be made of: give it one, or fix it to its parent"
     )]
     Shapeless(String),
+    /// An element has more attributes than any has.
+    #[error("line {line}: an element has more than {} attributes", super::ATTRIBUTES_MAX)]
+    ManyAttributes {
+        /// The line that the element begins in, from 1.
+        line: u32,
+    },
     /// It is larger than any body.
     #[error("it has more than {} links: give a body with fewer", super::LINKS_MAX)]
     TooLarge,

@@ -28,13 +28,31 @@ const EXTENSION: &str = "islands";
 pub const BYTES_MAX: usize = 4 << 20;
 /// The most links of a body.
 pub const LINKS_MAX: usize = 512;
+/// The most attributes of an element: the parser compares each with all before it.
+const ATTRIBUTES_MAX: usize = 256;
 
 /// Reads a body.
 ///
 /// # Errors
 /// One sentence that says what is wrong with the file, or what of it is not supported.
 pub fn read(text: &str) -> Result<ReadBody, UrdfError> {
+    require_few_attributes(text)?;
     let options = roxmltree::ParsingOptions { nodes_limit: 1 << 18, ..Default::default() };
     let document = roxmltree::Document::parse_with_options(text, options)?;
     body::build(&read::robot(&document)?)
+}
+
+/// Refuses an element with more attributes than any has. Each has two quotation marks, and what is in an element or after
+/// it goes on to the next `<`.
+fn require_few_attributes(text: &str) -> Result<(), UrdfError> {
+    let mut line = 1;
+    for piece in text.split('<') {
+        let quotes = piece.bytes().filter(|byte| b"\"'".contains(byte)).count();
+        // Comments and instructions have none.
+        if quotes > 2 * ATTRIBUTES_MAX && !piece.starts_with(['!', '?']) {
+            return Err(UrdfError::ManyAttributes { line });
+        }
+        line += piece.bytes().filter(|&byte| byte == b'\n').count() as u32;
+    }
+    Ok(())
 }

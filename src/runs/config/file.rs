@@ -87,7 +87,7 @@ impl Config {
     /// # Errors
     /// If there is none, it cannot be read, is not sound, or was not written by a launch.
     pub fn of_run(dir: &RunDir) -> Result<Self, Failure> {
-        if !dir.config().exists() {
+        if !dir.holds_run()? {
             return Err(Failure::no_run(dir));
         }
         let mut config = Self::read(&dir.config())?;

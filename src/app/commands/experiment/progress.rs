@@ -1,6 +1,6 @@
 //! How an experiment is getting on: a bar on a terminal, a plain line a run elsewhere.
 
-use crate::app::console::say;
+use crate::app::console::{printable, say};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::Duration;
@@ -37,7 +37,7 @@ impl Progress {
         match self {
             Self::Bar(bar) => {
                 bar.inc(1);
-                bar.set_message(news.to_owned());
+                bar.set_message(printable(news).into_owned());
             }
             Self::Lines(done, all) => {
                 *done += 1;

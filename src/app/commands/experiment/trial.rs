@@ -2,10 +2,10 @@
 
 use crate::archipelago::{Digest, Island, Report, Step, lockstep};
 use crate::evolution::population::mean_of_pairs;
-use crate::evolution::{Fitness, Founders, Gene, Individual};
+use crate::evolution::{Fitness, Founders, Gene};
 use crate::runs::catalogue::Visitor;
 use crate::runs::config::Config;
-use crate::runs::kept::kept;
+use crate::runs::kept::Candidates;
 use crate::runs::subject::Subject;
 use crate::runs::summary::lowest_mean;
 use serde::{Deserialize, Serialize};
@@ -112,7 +112,7 @@ fn evolve<P: Subject>(
     if stopped {
         return None;
     }
-    let best = kept(problem, record.champions.iter().map(|champion| (champion, champion)))?;
+    let (_, best) = record.candidates.kept(problem)?;
     let validated = lowest_mean(&problem.fresh(&best.genome, None));
     let champions = islands.iter().map(|island| &island.champion);
     let genomes: Vec<&[P::Gene]> = champions.map(|champion| champion.genome.as_slice()).collect();
@@ -142,8 +142,8 @@ impl Budget {
 /// Turns what islands report into a curve.
 struct Record<G> {
     islands: usize,
-    /// All that each island has had so far.
-    champions: Vec<Individual<G>>,
+    /// Of all champions that each island has had so far.
+    candidates: Candidates<G>,
     /// Of the islands that have done the present generation.
     reports: Vec<Report>,
     evaluations: u64,
@@ -155,7 +155,7 @@ impl<G: Gene> Record<G> {
     fn of(islands: u32) -> Self {
         Self {
             islands: islands as usize,
-            champions: Vec::new(),
+            candidates: Candidates::none(),
             reports: Vec::new(),
             evaluations: 0,
             best: Fitness::WORST,
@@ -164,7 +164,9 @@ impl<G: Gene> Record<G> {
     }
 
     fn observe(&mut self, step: &Step<G>) {
-        self.champions.extend(step.champion.as_ref().map(|champion| champion.individual.clone()));
+        if let Some(champion) = step.champion.as_ref() {
+            self.candidates.see(step.report.island, &champion.individual);
+        }
         self.best = self.best.max(step.island.champion.fitness);
         self.evaluations += step.report.effort.evaluations;
         self.reports.push(step.report);

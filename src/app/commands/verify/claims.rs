@@ -3,8 +3,8 @@
 use super::check::{Check, counted};
 use super::records::Records;
 use super::rules::Terms;
-use crate::archipelago::{Champion, Digest, Island};
-use crate::evolution::Gene;
+use crate::archipelago::{Digest, Island};
+use crate::evolution::{Gene, Individual};
 use crate::formats::metrics;
 use crate::runs::subject::Subject;
 use crate::runs::summary;
@@ -88,8 +88,10 @@ pub fn check<P: Subject>(
 ) -> (Option<String>, Vec<Check>) {
     let finals = records.finals(terms);
     let digest = finals.map(|finals| Digest::of(finals).to_string());
-    let best = finals.and_then(|_| summary::best(problem, &records.champions));
-    let ending = finals.filter(|_| sound).zip(best).map(|(islands, best)| Ending { islands, best });
+    let best = finals.and_then(|_| records.candidates().kept(problem));
+    let best = best.as_ref();
+    let ending = finals.filter(|_| sound).zip(best);
+    let ending = ending.map(|(islands, (island, best))| Ending { islands, best: (*island, best) });
     let checks = vec![
         check_digest(dir, digest.as_deref(), summary, records.states.len()),
         check_summary(dir, problem, terms, ending, records, summary),
@@ -103,7 +105,7 @@ pub fn check<P: Subject>(
 struct Ending<'a, G> {
     islands: &'a [Island<G>],
     /// The champion that it keeps, and its island.
-    best: (u32, &'a Champion<G>),
+    best: (u32, &'a Individual<G>),
 }
 
 fn check_digest(dir: &RunDir, found: Option<&str>, summary: &SummaryFile, states: usize) -> Check {
@@ -158,7 +160,7 @@ fn check_champion<P: Subject>(
     dir: &RunDir,
     problem: &P,
     terms: &Terms,
-    best: Option<&Champion<P::Gene>>,
+    best: Option<&Individual<P::Gene>>,
 ) -> Check {
     let files = if P::HAS_BODIES { "champion.csv, .urdf" } else { "champion.csv" };
     let mut check = Check::of("champion").checked(files);
@@ -166,7 +168,7 @@ fn check_champion<P: Subject>(
         check.note("not checked: a final population is missing or damaged");
         return check;
     };
-    let genome = &champion.individual.genome;
+    let genome = &champion.genome;
     let mut right = Vec::new();
     problem.write_genome(genome, &mut right).expect("memory takes everything");
     compare(&mut check, &dir.champion_genome(), &right, "the best champion's genome");

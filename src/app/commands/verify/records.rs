@@ -6,6 +6,7 @@ use super::rules::Terms;
 use crate::archipelago::{Arrivals, Births, Champion, Island, Outbox};
 use crate::evolution::{Fitness, Gene, Individual};
 use crate::formats::metrics;
+use crate::runs::kept::Candidates;
 use crate::store::{Checkpoints, Entry, RecordLog, RunDir};
 use serde::{Serialize, de::DeserializeOwned};
 use std::ops::RangeInclusive;
@@ -64,6 +65,15 @@ impl<G: Gene> Records<G> {
         let is_final = |state: &Island<G>| state.generation == terms.config.generations;
         let all = self.states.len() == terms.config.islands as usize;
         (all && self.states.iter().all(is_final)).then_some(&self.states)
+    }
+
+    /// Who of all champions may be kept.
+    pub fn candidates(&self) -> Candidates<G> {
+        let mut candidates = Candidates::none();
+        for (island, champions) in (0..).zip(&self.champions) {
+            champions.iter().for_each(|champion| candidates.see(island, &champion.individual));
+        }
+        candidates
     }
 
     /// All who are said to have a fitness: champions; thoroughly, also those who live in the newest states and all

@@ -79,11 +79,6 @@ impl<P: Subject> FilmRecorder<P> {
         })
     }
 
-    /// The problem that is solved.
-    pub fn problem(&self) -> &P {
-        &self.problem
-    }
-
     /// What to give to a viewer to watch live.
     pub fn address(&self) -> Option<String> {
         self.recorder.address()

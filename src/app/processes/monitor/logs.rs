@@ -39,10 +39,9 @@ impl<G: Gene> Logs<G> {
         those.filter_map(Island::take).collect()
     }
 
-    /// The first island whose generations up to `last` were not all shown, and how many were.
-    pub fn first_short_of(&self, last: u32) -> Option<(u32, u32)> {
-        let found = self.islands.iter().find(|island| island.generation <= last);
-        found.map(|island| (island.index, island.generation))
+    /// How many generations of each island were taken.
+    pub fn shown(&self) -> impl Iterator<Item = u32> + '_ {
+        self.islands.iter().map(|island| island.generation)
     }
 }
 
@@ -131,6 +130,13 @@ impl<G: Gene> Island<G> {
                 coming => coming,
             };
             if self.coming.as_ref().is_none_or(|coming| coming.generation > report.generation) {
+                if champion.is_none() && report.generation == 0 {
+                    let reason = "it has no champion of generation 0".to_owned();
+                    return Err(StoreError::Damaged {
+                        path: self.champions.path().to_owned(),
+                        reason,
+                    });
+                }
                 return Ok(Some(Sighting { report, champion }));
             }
             champion = self.coming.take();

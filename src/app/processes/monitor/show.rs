@@ -6,12 +6,12 @@ use crate::app::args::cli::{MonitorArgs, Watching};
 use crate::app::console::{Stopwatch, print, say};
 use crate::app::processes::parent_link::{SERVING, StopSignal, tell};
 use crate::app::viewer;
+use crate::evolution::Gene;
 use crate::runs::Failure;
 use crate::runs::catalogue::Visitor;
 use crate::runs::config::Config;
 use crate::runs::subject::Subject;
-use crate::runs::summary;
-use crate::store::{RunDir, file};
+use crate::store::{Checkpoints, RunDir, file};
 use crate::view::Live;
 use std::fs::{File, TryLockError};
 use std::time::Duration;
@@ -91,7 +91,16 @@ impl Projection<'_> {
             None => {}
         }
         let logs = Logs::of(&dir, config.islands);
-        Show { dir, config: config.clone(), launched, stop_signal, logs, film_recorder }.run()
+        Show {
+            dir,
+            config: config.clone(),
+            launched,
+            stop_signal,
+            logs,
+            film_recorder,
+            is_published: false,
+        }
+        .run()
     }
 }
 
@@ -128,17 +137,22 @@ struct Show<P: Subject> {
     stop_signal: StopSignal,
     logs: Logs<P::Gene>,
     film_recorder: FilmRecorder<P>,
+    /// Whether the recording that is in its place is this one.
+    is_published: bool,
 }
 
 impl<P: Subject> Show<P> {
     fn run(mut self) -> Result<(), Failure> {
         let mut last = false;
         loop {
+            if !self.launched && self.stop_signal.is_raised() {
+                return self.break_off();
+            }
             let began_s = cpu_s();
             if self.look()? {
                 // A recording that replaces none has nothing to wait for, while the islands may long be ahead.
                 if self.is_under_way()? && !self.dir.recording().exists() {
-                    self.film_recorder.publish()?;
+                    self.publish()?;
                 }
                 self.rest(REST * (cpu_s() - began_s))?;
                 continue;
@@ -149,7 +163,7 @@ impl<P: Subject> Show<P> {
             // What was written before this is read after it.
             last = self.stop_signal.is_raised() || !self.is_under_way()?;
             if !last {
-                self.film_recorder.publish()?;
+                self.publish()?;
                 std::thread::sleep(LOOK);
             }
         }
@@ -182,6 +196,27 @@ impl<P: Subject> Show<P> {
         Ok(true)
     }
 
+    /// Somebody has seen enough: the film ends with what was shown, but does not replace one that was there.
+    fn break_off(self) -> Result<(), Failure> {
+        let recording = self.dir.recording();
+        if recording.exists() && !self.is_published {
+            let news = format!("interrupted; {} is left as it was", recording.display());
+            return Err(Failure::interrupted(news));
+        }
+        if !self.film_recorder.has_shown() {
+            return Err(Failure::interrupted("interrupted before there was anything to film"));
+        }
+        self.film_recorder.finish()?;
+        print(&format!("view it, as far as it was shown:  rerun {}", recording.display()));
+        Ok(())
+    }
+
+    fn publish(&mut self) -> Result<(), Failure> {
+        self.film_recorder.publish()?;
+        self.is_published = self.film_recorder.has_shown();
+        Ok(())
+    }
+
     /// Everything was read.
     fn end(self) -> Result<(), Failure> {
         let Self { dir, config, launched, logs, film_recorder, .. } = self;
@@ -192,13 +227,11 @@ impl<P: Subject> Show<P> {
         if !film_recorder.has_shown() {
             return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
         }
-        let is_over = summary::finished(&dir, &config, film_recorder.problem()).is_some();
-        let short = logs.first_short_of(config.generations).filter(|_| is_over);
-        if let Some((island, generations)) = short {
+        if let Some((island, generations, saved)) = first_short(&dir, &config, &logs)? {
             let news = format!(
-                "the run in {folder} is over, but the logs of island {island} hold only the first \
+                "the run in {folder} has come to generation {saved} of island {island}, whose logs hold only the first \
                  {generations} of its {} generations",
-                config.generations + 1
+                saved + 1
             );
             if recording.exists() {
                 let news = format!("{news}; {} is left as it was", recording.display());
@@ -210,6 +243,22 @@ impl<P: Subject> Show<P> {
         print(&format!("view it:  rerun {}", recording.display()));
         Ok(())
     }
+}
+
+/// The first island whose film is shorter than what was evolved of it: how many generations were shown, and the last one
+/// whose state was saved, whether that is whole or not.
+fn first_short<G: Gene>(
+    dir: &RunDir,
+    config: &Config,
+    logs: &Logs<G>,
+) -> Result<Option<(u32, u32, u32)>, Failure> {
+    for (island, shown) in (0..config.islands).zip(logs.shown()) {
+        let saved = Checkpoints::of(dir, island).generations()?.into_iter().max();
+        if let Some(saved) = saved.filter(|&saved| shown <= saved) {
+            return Ok(Some((island, shown, saved)));
+        }
+    }
+    Ok(None)
 }
 
 /// The time that this process has computed for, all threads together, in seconds; 0 where the system does not

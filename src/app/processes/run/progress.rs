@@ -1,6 +1,6 @@
 //! How a run is getting on: a bar an island on a terminal, plain lines elsewhere.
 
-use crate::app::console::{Stopwatch, say};
+use crate::app::console::{Stopwatch, say, say_above};
 use crate::archipelago::Report;
 use crate::evolution::Fitness;
 use crate::runs::config::Config;
@@ -76,10 +76,7 @@ impl Progress {
     /// Says something above the bars.
     pub fn say(&self, line: &str) {
         match &self.show {
-            Show::Bars(bars, _) => {
-                // A terminal that went away is no reason to fail.
-                let _ = bars.println(line);
-            }
+            Show::Bars(bars, _) => say_above(bars, line),
             Show::Lines => say(line),
             Show::Nothing => {}
         }

@@ -19,7 +19,7 @@ const AFTERLIFE: Duration = Duration::from_millis(200);
 /// # Errors
 /// If there is none, or it is under way.
 pub fn claim(dir: &RunDir) -> Result<Claim, Failure> {
-    if !dir.config().exists() {
+    if !dir.holds_run()? {
         return Err(Failure::no_run(dir));
     }
     let watch = Stopwatch::start();
