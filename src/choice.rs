@@ -1,6 +1,6 @@
 //! Settings that are one of a few: read by the names that they are shown by.
 //!
-//! `strum` derives the names and the list of an enum's variants, so that none can be forgotten; [`one_of`] reads them.
+//! `strum` derives the names and the list of an enum's variants, so that none can be forgotten; `one_of` reads them.
 //! Where variants hold a number, its `EnumCount` has the compiler count the list of the usual ones.
 
 use std::fmt::Display;

@@ -2,7 +2,7 @@
 
 use super::{StoreError, atomic, file};
 use std::fs::{DirBuilder, File, TryLockError};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::os::unix::fs::DirBuilderExt;
 use std::path::{Path, PathBuf};
 
@@ -295,9 +295,18 @@ pub(super) fn make(folder: &Path) -> Result<(), StoreError> {
 /// it is there: who made it may have been killed before doing that.
 fn make_durably(folder: &Path) -> Result<(), StoreError> {
     let is_missing = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
-    let missing: Vec<&Path> = folder.ancestors().skip(1).take_while(is_missing).collect();
+    let missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
     private().create(folder).map_err(StoreError::io("make the folder", folder))?;
-    missing.into_iter().rev().chain([folder]).try_for_each(atomic::sync_name)
+    if missing.is_empty() {
+        // Whose parent may not be read was not made by us.
+        return match atomic::sync_name(folder) {
+            Err(StoreError::Io { source, .. }) if source.kind() == ErrorKind::PermissionDenied => {
+                Ok(())
+            }
+            synced => synced,
+        };
+    }
+    missing.into_iter().rev().try_for_each(atomic::sync_name)
 }
 
 fn is_link(path: &Path) -> bool {

@@ -4,6 +4,8 @@ mod circles;
 mod cleaning;
 mod cli;
 mod experiment;
+#[cfg(feature = "view")]
+mod kept_film;
 mod problems;
 mod readme;
 #[cfg(feature = "view")]

@@ -155,6 +155,9 @@ fn a_run_of_a_problem_says_all_that_decides_it_and_nothing_else() {
     let other = "--config first/run.toml --problem onemax --dimensions 10";
     assert!(world.refusal(other).contains("block means nothing to onemax"));
     assert_ne!(world.digest("third", "--config first/run.toml --dimensions 32"), first);
+    // What means nothing is not written down: with other dimensions its default is another.
+    world.digest("random", "--problem sphere --algorithm random --n 1 --generations 1");
+    world.digest("wider", "--config random/run.toml --dimensions 8");
     world
         .json("--problem sphere --dimensions 2 --n 1 --seed 3 --generations 1 --no-monitor --json");
     assert!(world.path("runs/sphere-seed3/summary.json").exists());

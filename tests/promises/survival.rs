@@ -82,7 +82,7 @@ fn an_island_with_rare_checkpoints_evolves_again_what_it_had_not_saved() {
     let expected = world.digest("undisturbed", RUN);
     let dir = RunDir::at(world.path("run"));
     let run = start(&world, &format!("{RUN} --checkpoint-interval 6"));
-    for generation in [5, 11, 15] {
+    for generation in [5, 11, 13] {
         await_generation(&dir, 3, generation);
         signal(run.child("--index=2"), "KILL");
     }

@@ -8,6 +8,7 @@ pub mod onlooker;
 pub mod reel;
 
 use islands::store::{Checkpoints, Entry, RecordLog, RunDir};
+use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -269,6 +270,16 @@ pub fn await_generation(dir: &RunDir, islands: u32, generation: u32) {
         RecordLog::<Entry>::read(&dir.reports(island)).map_or(0, |log| log.records.len() as u32)
     };
     until("every island has evolved", || (0..islands).all(|i| generations(i) > generation));
+}
+
+/// Writes a log of these records instead of the one that is there.
+pub fn rewrite<'a, T>(path: &Path, records: impl IntoIterator<Item = &'a T>)
+where
+    T: Serialize + DeserializeOwned + 'a,
+{
+    let mut log = RecordLog::open(path).unwrap();
+    log.truncate(0).unwrap();
+    records.into_iter().for_each(|record| log.append(record).unwrap());
 }
 
 /// The checkpoints of an island of a run, whole or not, the newest first.

@@ -28,7 +28,11 @@ impl Config {
     /// One sentence that says what to change.
     pub fn check_values(&self) -> Result<(), Failure> {
         self.check_dimensions()?;
-        let unused = self.unused()?;
+        if self.seed.is_some_and(|seed| seed > SEED_MAX) {
+            return Err(Failure::usage(format!("seed must be at most {SEED_MAX}")));
+        }
+        // A number that is too large for a file is out of its range as well, which is found for all then.
+        let unused = self.unused().unwrap_or_default();
         let is_used =
             |name: &str| unused.iter().all(|unused| unused.name != name || unused.is_said);
         for setting in SETTINGS.iter().filter(|setting| is_used(&setting.name)) {
@@ -38,13 +42,7 @@ impl Config {
         self.check_migrants()?;
         self.terrain.as_ref().map_or(Ok(()), KeptTerrain::check)?;
         self.scales.check(self.profile).map_err(|error| Failure::usage(error.to_string()))?;
-        self.locomotion().check().map_err(|error| Failure::usage(error.to_string()))?;
-        match self.seed {
-            Some(seed) if seed > SEED_MAX => {
-                Err(Failure::usage(format!("seed must be at most {SEED_MAX}")))
-            }
-            _ => Ok(()),
-        }
+        self.locomotion().check().map_err(|error| Failure::usage(error.to_string()))
     }
 
     /// Makes sure that the problem can have so many variables or bits.

@@ -102,12 +102,14 @@ impl Config {
         }
     }
 
-    /// The file that says the same, in sections, without the settings that are of no use to the problem: those have
-    /// their defaults.
+    /// The file that says the same, in sections, without the settings that are of no use to the problem, and those that
+    /// mean nothing to the algorithm or who survives: those have their defaults.
     pub fn to_toml(&self) -> String {
         let table = self.table();
         let mut left = table.expect("a checked configuration is plain data within TOML's ranges");
-        for useless in Self::useless_to(self.problem) {
+        let unused = self.unused().unwrap_or_default();
+        let unsaid = unused.iter().filter(|unused| !unused.is_said).map(|unused| unused.name);
+        for useless in Self::useless_to(self.problem).into_iter().chain(unsaid) {
             left.remove(useless);
         }
         let mut text = String::new();

@@ -307,7 +307,7 @@ fn what_breaks_the_limits_is_not_sent() {
     assert!(refused(crowded).contains("migrants"));
     let mut long = outbox(0, 0);
     long.migrants[0].genome = vec![TestGene(0.0); GENES_MAX + 1];
-    assert!(refused(long).contains("lengths"));
+    assert!(refused(long).contains("too long"));
 
     let migration = Migration { migrants: 33, ..archipelago.migration };
     let crowded = Archipelago { migration, ..archipelago };

@@ -9,7 +9,7 @@ use std::io::ErrorKind;
 use std::path::PathBuf;
 
 /// No file of a run is larger, in bytes: a generation takes some hundred.
-const RUN_BYTES_MAX: usize = 1 << 26;
+const RUN_BYTES_MAX: usize = 1 << 30;
 
 /// A run that has finished.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

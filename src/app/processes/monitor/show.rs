@@ -227,7 +227,7 @@ impl<P: Subject> Show<P> {
         if !film_recorder.has_shown() {
             return Err(Failure::failed(format!("there is nothing to film in {folder} yet")));
         }
-        if let Some((island, generations, saved)) = first_short(&dir, &config, &logs)? {
+        if let Some((island, generations, saved)) = first_short(&dir, &config, &logs) {
             let news = format!(
                 "the run in {folder} has come to generation {saved} of island {island}, whose logs hold only the first \
                  {generations} of its {} generations",
@@ -247,18 +247,16 @@ impl<P: Subject> Show<P> {
 
 /// The first island whose film is shorter than what was evolved of it: how many generations were shown, and the last one
 /// whose state was saved, whether that is whole or not.
-fn first_short<G: Gene>(
-    dir: &RunDir,
-    config: &Config,
-    logs: &Logs<G>,
-) -> Result<Option<(u32, u32, u32)>, Failure> {
+fn first_short<G: Gene>(dir: &RunDir, config: &Config, logs: &Logs<G>) -> Option<(u32, u32, u32)> {
     for (island, shown) in (0..config.islands).zip(logs.shown()) {
-        let saved = Checkpoints::of(dir, island).generations()?.into_iter().max();
+        // An island that never got so far has no folder of them.
+        let saved =
+            Checkpoints::of(dir, island).generations().unwrap_or_default().into_iter().max();
         if let Some(saved) = saved.filter(|&saved| shown <= saved) {
-            return Ok(Some((island, shown, saved)));
+            return Some((island, shown, saved));
         }
     }
-    Ok(None)
+    None
 }
 
 /// The time that this process has computed for, all threads together, in seconds; 0 where the system does not
