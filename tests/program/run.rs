@@ -6,6 +6,8 @@ use islands::runs::config::Config;
 use islands::store::RunDir;
 use serde_json::Value;
 use std::collections::BTreeSet;
+use std::thread::sleep;
+use std::time::Duration;
 
 #[test]
 fn a_run_ends_with_one_json_object_that_says_what_came_out() {
@@ -259,4 +261,38 @@ fn a_runs_folder_may_have_any_name_that_is_text() {
     );
     assert_eq!(world.files(), before);
     world.assert_left_nothing();
+}
+
+#[test]
+fn a_launcher_needs_as_much_memory_for_a_long_run_as_for_a_short_one() {
+    let world = World::new();
+    let run = "--problem sphere --dimensions 500 --n 2 --seed 3 --population 4 --no-monitor --quiet --json";
+    let [short, long] = [200, 1_500].map(|generations| {
+        let out = format!("run-{generations}");
+        let running = world.start(&format!("{run} --generations {generations} --out {out}"));
+        let peak_kb = peak_memory_kb(&running);
+        let ending = running.wait();
+        assert_eq!(ending.code, Some(0), "{ending:?}");
+        let dir = RunDir::at(world.path(&out));
+        let logs = [0, 1].map(|island| std::fs::metadata(dir.champions(island)).unwrap().len());
+        (peak_kb, logs.iter().sum::<u64>() / 1_000)
+    });
+    let (more_kb, more_on_disk_kb) = (long.0.saturating_sub(short.0), long.1 - short.1);
+    assert!(more_on_disk_kb > 4_000, "{short:?}, {long:?}");
+    assert!(more_kb < more_on_disk_kb / 2, "{short:?}, {long:?}");
+}
+
+/// The most memory that a process had until it ended, in kilobytes.
+fn peak_memory_kb(running: &Running) -> u64 {
+    let status = format!("/proc/{}/status", running.pid());
+    let mut peak_kb = 0;
+    while running.is_alive() {
+        let text = std::fs::read_to_string(&status).unwrap_or_default();
+        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        let said = line.and_then(|line| line.trim().strip_suffix(" kB")?.parse().ok());
+        peak_kb = peak_kb.max(said.unwrap_or(0));
+        sleep(Duration::from_millis(10));
+    }
+    assert!(peak_kb > 1_000, "{peak_kb} kB");
+    peak_kb
 }
